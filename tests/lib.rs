@@ -1,0 +1,1 @@
+//! Shared problems and fixtures of the suite.
