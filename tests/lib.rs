@@ -1,1 +1,3 @@
 //! Shared problems and fixtures of the suite.
+
+pub mod vectors;

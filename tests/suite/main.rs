@@ -1,1 +1,3 @@
-//! placeholder
+//! The suite: every algorithm against something that was not written here.
+
+mod dynamics;

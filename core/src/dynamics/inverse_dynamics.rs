@@ -1,0 +1,283 @@
+//! Algorithm 3.2: joint torques for given accelerations.
+//!
+//! # Notation
+//! In joint frames, with the classical acceleration of the origin (see the module's page):
+//! - `ω, ω̇, a` angular velocity, angular acceleration, acceleration of the origin less gravity
+//! - `K = ω̇ˆ + ω̂ω̂`, so that the acceleration of a point at `r` is `a + K r` (1)
+//! - `m, h, J` mass, first moment, rotational inertia
+//! - `f, n` wrench through the joint: `F_{k.o}` of (3.17)
+//!
+//! ```text
+//! f = m a + K h − f_ext + Σ f_out,   n = h × a + J ω̇ + ω × J ω − n_ext + Σ (n_out + r × f_out)  (2)
+//! τ = Hᵀ (f, n)                                                                                (3.20)
+//! ```
+
+use super::JointPoses;
+use super::forward_kinematics::inboard;
+use super::joint_motion::{JointMotion, own, own_one};
+use super::joint_poses::JointPose;
+use crate::Real;
+use crate::model::{Axis, JointKind, Node, Tree};
+use crate::spatial::{Twist, Wrench};
+use nalgebra::{Matrix3, Vector3};
+
+/// Angular velocity and accelerations of a joint frame.
+#[derive(Clone, Copy)]
+struct Motion<T> {
+    omega: Vector3<T>,
+    omega_dot: Vector3<T>,
+    /// Less gravity.
+    a: Vector3<T>,
+    /// (1)
+    k: Matrix3<T>,
+}
+
+/// The torques `τ` that give the tree the joint accelerations `accelerations` at `velocities`, under
+/// gravity and `external` wrenches (each at its body's centre of mass, in its body frame). A floating
+/// joint's entry is the wrench on its body, in the body frame.
+///
+/// Numbers that are not finite go through to the result.
+///
+/// # Cost
+/// O(N), about 90 multiplications per revolute joint.
+#[inline]
+pub fn inverse_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    joint_poses: &JointPoses<T, N, NQ>,
+    velocities: &[T; NV],
+    accelerations: &[T; NV],
+    external: Option<&[Wrench<T>; N]>,
+) -> [T; NV] {
+    let base = Motion {
+        omega: Vector3::zeros(),
+        omega_dot: Vector3::zeros(),
+        a: -tree.gravity,
+        k: Matrix3::zeros(),
+    };
+    let mut motions = [base; N];
+    let mut wrenches = [Wrench::zero(); N];
+
+    for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate() {
+        let from = inboard(node, &motions).unwrap_or(&base);
+        let motion =
+            step(node, pose, from, &joint_poses.positions, velocities, accelerations);
+        wrenches[k] = inertial_wrench(node, &motion);
+        motions[k] = motion;
+    }
+    if let Some(external) = external {
+        for ((wrench, node), applied) in wrenches.iter_mut().zip(&tree.nodes).zip(external) {
+            *wrench -= at_joint(node, applied);
+        }
+    }
+
+    let mut torques = [T::zero(); NV];
+    for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate().rev() {
+        let wrench = wrenches[k];
+        project(node, &wrench, &joint_poses.positions, velocities, &mut torques);
+        if let Some(inboard) = node.inboard.and_then(|i| wrenches.get_mut(i)) {
+            *inboard += carried(pose, &wrench);
+        }
+    }
+    torques
+}
+
+/// The bias `ℂ` of (3.33): torques at zero joint acceleration, from velocity, gravity and external
+/// wrenches. O(N).
+#[inline]
+pub fn bias_forces<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    joint_poses: &JointPoses<T, N, NQ>,
+    velocities: &[T; NV],
+    external: Option<&[Wrench<T>; N]>,
+) -> [T; NV] {
+    inverse_dynamics(tree, joint_poses, velocities, &[T::zero(); NV], external)
+}
+
+/// Outboard step of `ω`, `ω̇`, `a` and `K` across one joint.
+#[inline(always)]
+fn step<T: Real, const NQ: usize, const NV: usize>(
+    node: &Node<T>,
+    pose: &JointPose<T>,
+    from: &Motion<T>,
+    positions: &[T; NQ],
+    velocities: &[T; NV],
+    accelerations: &[T; NV],
+) -> Motion<T> {
+    let transported_a = if pose.is_translated && node.inboard.is_some() {
+        from.a + from.k * pose.translation
+    } else {
+        from.a
+    };
+    let mut omega = pose.rotation.outboard(from.omega);
+    let mut omega_dot = pose.rotation.outboard(from.omega_dot);
+    let mut a = pose.rotation.outboard(transported_a);
+    match &node.kind {
+        JointKind::Fixed => {}
+        JointKind::Revolute(axis) => {
+            let beta = own_one(node, velocities);
+            let beta_dot = own_one(node, accelerations);
+            match axis {
+                Axis::X => turn::<T, 0>(&mut omega, &mut omega_dot, beta, beta_dot),
+                Axis::Y => turn::<T, 1>(&mut omega, &mut omega_dot, beta, beta_dot),
+                Axis::Z => turn::<T, 2>(&mut omega, &mut omega_dot, beta, beta_dot),
+            }
+        }
+        _ => {
+            let beta = own(node, velocities);
+            let motion = JointMotion::new(node, positions, &beta);
+            let product = motion.velocity_product(omega, &beta);
+            let change = motion.relative(&own(node, accelerations)) + product;
+            omega += motion.relative(&beta).angular;
+            omega_dot += change.angular;
+            a += change.linear;
+        }
+    }
+    Motion { omega, omega_dot, a, k: point_acceleration(omega, omega_dot) }
+}
+
+/// Adds a turn about axis `I`: `ω + e β`, `ω̇ + e β̇ + ω × e β`.
+#[inline(always)]
+fn turn<T: Real, const I: usize>(
+    omega: &mut Vector3<T>,
+    omega_dot: &mut Vector3<T>,
+    beta: T,
+    beta_dot: T,
+) {
+    let (j, k) = ((I + 1) % 3, (I + 2) % 3);
+    omega_dot[j] += omega[k] * beta;
+    omega_dot[k] -= omega[j] * beta;
+    omega_dot[I] += beta_dot;
+    omega[I] += beta;
+}
+
+/// `K` of (1).
+#[inline(always)]
+fn point_acceleration<T: Real>(omega: Vector3<T>, omega_dot: Vector3<T>) -> Matrix3<T> {
+    let (w, d) = (omega, omega_dot);
+    let (xx, yy, zz) = (w.x * w.x, w.y * w.y, w.z * w.z);
+    let (xy, xz, yz) = (w.x * w.y, w.x * w.z, w.y * w.z);
+    Matrix3::new(
+        -(yy + zz),
+        xy - d.z,
+        xz + d.y,
+        xy + d.z,
+        -(xx + zz),
+        yz - d.x,
+        xz - d.y,
+        yz + d.x,
+        -(xx + yy),
+    )
+}
+
+/// The body's own part of (2).
+#[inline(always)]
+fn inertial_wrench<T: Real>(node: &Node<T>, motion: &Motion<T>) -> Wrench<T> {
+    let inertia = &node.inertia;
+    let momentum = inertia.rotational.product(motion.omega);
+    let mut wrench = Wrench {
+        force: motion.a * inertia.mass,
+        torque: inertia.rotational.product(motion.omega_dot) + motion.omega.cross(&momentum),
+    };
+    if node.is_eccentric {
+        wrench.force += motion.k * inertia.first_moment;
+        wrench.torque += inertia.first_moment.cross(&motion.a);
+    }
+    wrench
+}
+
+/// `τ_k = H_kᵀ F_{k.o}` into the torques of the whole tree.
+#[inline(always)]
+fn project<T: Real, const NQ: usize, const NV: usize>(
+    node: &Node<T>,
+    wrench: &Wrench<T>,
+    positions: &[T; NQ],
+    velocities: &[T; NV],
+    torques: &mut [T; NV],
+) {
+    let mut own_torques = torques.iter_mut().skip(node.velocity_start);
+    let one = match &node.kind {
+        JointKind::Fixed => return,
+        JointKind::Revolute(Axis::X) => wrench.torque.x,
+        JointKind::Revolute(Axis::Y) => wrench.torque.y,
+        JointKind::Revolute(Axis::Z) => wrench.torque.z,
+        _ => {
+            let motion = JointMotion::new(node, positions, &own(node, velocities));
+            for (torque, h) in own_torques.zip(motion.map).take(motion.degrees_of_freedom) {
+                *torque = h.power(*wrench);
+            }
+            return;
+        }
+    };
+    if let Some(torque) = own_torques.next() {
+        *torque = one;
+    }
+}
+
+/// `A_{k.i}^{k.o}ᵀ F`: the wrench through the joint, on the inboard frame.
+#[inline(always)]
+pub(super) fn carried<T: Real>(pose: &JointPose<T>, wrench: &Wrench<T>) -> Wrench<T> {
+    let force = pose.rotation.inboard(wrench.force);
+    let torque = pose.rotation.inboard(wrench.torque);
+    if pose.is_translated {
+        Wrench { force, torque: torque + pose.translation.cross(&force) }
+    } else {
+        Wrench { force, torque }
+    }
+}
+
+/// A wrench at the centre of mass in the body frame, taken at the joint frame.
+#[inline(always)]
+pub(super) fn at_joint<T: Real>(node: &Node<T>, applied: &Wrench<T>) -> Wrench<T> {
+    let turned = match &node.body_rotation {
+        None => *applied,
+        Some(r) => Wrench { force: r * applied.force, torque: r * applied.torque },
+    };
+    turned.shifted(node.center)
+}
+
+/// Velocity terms alone, for the articulated-body recursion: `ω`, `Rᵀ(K r) ` with `ω̇ = 0`, joint
+/// products, and the bias wrench of the body.
+#[derive(Clone, Copy)]
+pub(super) struct VelocityTerms<T> {
+    pub omega: Vector3<T>,
+    /// `c`: acceleration of the joint frame beyond what the inboard frame's and the joint's own give.
+    pub product: Twist<T>,
+}
+
+/// `c_k` of a joint from the inboard angular velocity.
+#[inline(always)]
+pub(super) fn velocity_terms<T: Real, const NQ: usize, const NV: usize>(
+    node: &Node<T>,
+    pose: &JointPose<T>,
+    inboard_omega: Vector3<T>,
+    positions: &[T; NQ],
+    velocities: &[T; NV],
+) -> VelocityTerms<T> {
+    let mut omega = pose.rotation.outboard(inboard_omega);
+    let linear = if pose.is_translated && node.inboard.is_some() {
+        let w = inboard_omega;
+        pose.rotation.outboard(w.cross(&w.cross(&pose.translation)))
+    } else {
+        Vector3::zeros()
+    };
+    let mut product = Twist { linear, angular: Vector3::zeros() };
+    match &node.kind {
+        JointKind::Fixed => {}
+        JointKind::Revolute(axis) => {
+            let beta = own_one(node, velocities);
+            let (w, c) = (&mut omega, &mut product.angular);
+            match axis {
+                Axis::X => turn::<T, 0>(w, c, beta, T::zero()),
+                Axis::Y => turn::<T, 1>(w, c, beta, T::zero()),
+                Axis::Z => turn::<T, 2>(w, c, beta, T::zero()),
+            }
+        }
+        _ => {
+            let beta = own(node, velocities);
+            let motion = JointMotion::new(node, positions, &beta);
+            product = product + motion.velocity_product(omega, &beta);
+            omega += motion.relative(&beta).angular;
+        }
+    }
+    VelocityTerms { omega, product }
+}

@@ -1,0 +1,31 @@
+//! Kinematics and dynamics of tree-structured systems (chapter 3).
+//!
+//! Every algorithm takes the constant [`Tree`](crate::model::Tree) and the [`JointPoses`] of one
+//! configuration, whose sines and cosines are so taken once. Velocities `β`, accelerations `dβ/dt`
+//! and torques `τ` are arrays over all joints, in the tree's order; a floating joint's six are twist
+//! and wrench in the body frame, linear part first. External wrenches are given for each body at its
+//! centre of mass, in its body frame; leaving them out costs nothing.
+//!
+//! # Inside
+//! The recursions run in joint frames, where a joint map is a unit vector, and use the classical
+//! acceleration of the frame's origin, `a = v̇ + ω × v`, in place of the component derivative `v̇`.
+//! With it the velocity `v` drops out of the dynamics altogether, as it does from Newton's and
+//! Euler's laws (Luh, Walker and Paul 1980): only `ω` is propagated. Gravity enters as an
+//! acceleration `−g` of the inertial frame. Inputs and outputs are the dissertation's.
+
+mod fault;
+mod forward_dynamics;
+mod forward_kinematics;
+mod inverse_dynamics;
+mod joint_motion;
+mod joint_poses;
+mod mass_matrix;
+
+pub use fault::DynamicsFault;
+pub use forward_dynamics::forward_dynamics;
+pub use forward_kinematics::{
+    Kinematics, body_poses, body_velocities, forward_kinematics, position_rates,
+};
+pub use inverse_dynamics::{bias_forces, inverse_dynamics};
+pub use joint_poses::{JointPoses, joint_poses};
+pub use mass_matrix::mass_matrix;

@@ -1,0 +1,20 @@
+//! Robots as constant data: trees of bodies and joints, checked when they are compiled.
+//!
+//! A tree is described in its home configuration (all joint coordinates zero), every length and
+//! direction in one frame, as §4.1 describes its biped: where the centres of mass are, where the
+//! joints are, which way their axes point. [`Tree::new`] is a `const fn` that derives all constants
+//! the algorithms need, so that they lie in flash, and that refuses an ill-formed tree at compile
+//! time.
+
+mod compile_time;
+mod general_joint;
+mod joint;
+mod link;
+pub mod robots;
+mod tree;
+
+pub use general_joint::{GeneralJoint, GeneralMotion};
+pub use joint::{Axis, JointKind};
+pub use link::Link;
+pub(crate) use tree::Node;
+pub use tree::Tree;

@@ -1,0 +1,3 @@
+//! Chapter 3: kinematics and dynamics of trees.
+
+mod vectors;

@@ -1,0 +1,46 @@
+//! Independent test vectors (`vectors/*.json`), made with other software.
+
+use serde_json::Value;
+
+/// The dynamics vectors: poses, velocities, accelerations, torques, mass matrix and bias.
+pub fn dynamics() -> Value {
+    parse(include_str!("vectors/dynamics_vectors.json"))
+}
+
+/// The controller vectors: the balance controller, stage by stage.
+pub fn controller() -> Value {
+    parse(include_str!("vectors/controller_vectors.json"))
+}
+
+fn parse(text: &str) -> Value {
+    serde_json::from_str(text).expect("the vectors are valid JSON")
+}
+
+/// The numbers of an array, which must have `N` of them.
+pub fn array<const N: usize>(value: &Value) -> [f64; N] {
+    let numbers: Vec<f64> = value
+        .as_array()
+        .expect("an array")
+        .iter()
+        .map(|x| x.as_f64().expect("a number"))
+        .collect();
+    numbers.try_into().expect("as many numbers as asked for")
+}
+
+/// A matrix by rows.
+pub fn matrix<const R: usize, const C: usize>(value: &Value) -> [[f64; C]; R] {
+    let rows: Vec<[f64; C]> = value.as_array().expect("rows").iter().map(array).collect();
+    rows.try_into().expect("as many rows as asked for")
+}
+
+/// `max |a − b| / max(1, max |b|)`: the error relative to the largest number of the result.
+pub fn relative_error(ours: &[f64], theirs: &[f64]) -> f64 {
+    assert_eq!(ours.len(), theirs.len());
+    let scale = theirs.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+    let error = ours
+        .iter()
+        .zip(theirs)
+        .map(|(a, b)| if a.is_finite() { (a - b).abs() } else { f64::INFINITY })
+        .fold(0.0, f64::max);
+    error / scale
+}
