@@ -1,3 +1,4 @@
 //! The suite: every algorithm against something that was not written here.
 
+mod balance;
 mod dynamics;

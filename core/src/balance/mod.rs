@@ -1,1 +1,42 @@
-//! placeholder
+//! The recursive workspace controller (chapter 4), for a floating central body on serial legs of six
+//! revolute joints.
+//!
+//! ```text
+//! state ─► leg kinematics ─► workspace dynamics ─► desired wrench ─► distribution ─► joint torques
+//!           (Alg. 4.1, 4.2)   (4.3, or fixed foot)  (4.4)             (4.5)           (4.6)
+//! ```
+//! [`tick`] runs all of it. The stages are public, each on the results of those before it.
+//!
+//! # One frame
+//! Everything is expressed in the frame of the central body ("frame 1"): its axes, and positions from
+//! its centre of mass. There the Jacobian's columns are the joint axes themselves, forces add without
+//! being transformed, and Alg. 4.6 is one product per joint. The dissertation's link frames appear
+//! only at the surface: foot wrenches are reported in the feet's body frames.
+
+mod controller;
+mod desired_wrench;
+mod fault;
+mod foot_limits;
+mod joint_torques;
+mod leg_jacobian;
+mod leg_kinematics;
+mod robot;
+mod state;
+mod tick;
+mod workspace_dynamics;
+mod wrench_distribution;
+
+pub use controller::{Controller, Gains, WorkspaceForm};
+pub use desired_wrench::{DesiredAcceleration, desired_acceleration};
+pub use fault::{Fault, FootLimit, Input};
+pub use foot_limits::{FootLimits, Sole};
+pub use joint_torques::joint_torques;
+pub use leg_jacobian::LegJacobian;
+pub use leg_kinematics::{CentralBody, LegKinematics, central_body, leg_kinematics};
+pub use robot::LeggedRobot;
+pub use state::{Reference, RobotState};
+pub use tick::{Command, tick};
+pub use workspace_dynamics::{
+    WorkspaceDynamics, big_base, fixed_foot_dynamics, fixed_foot_wrench,
+};
+pub use wrench_distribution::{FootWrenches, wrench_distribution};

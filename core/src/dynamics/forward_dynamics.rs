@@ -22,7 +22,7 @@ use nalgebra::Vector3;
 
 /// What the inboard pass leaves for the outboard pass at a joint with one degree of freedom.
 #[derive(Clone, Copy)]
-struct Hinge<T> {
+pub(crate) struct Hinge<T> {
     /// `U`
     image: Wrench<T>,
     /// `D⁻¹`
@@ -73,15 +73,12 @@ pub fn forward_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
         let (projected, bias) = match &node.kind {
             JointKind::Fixed => (p[k], z[k]),
             JointKind::Revolute(axis) => {
-                let (image, d, moment) = match axis {
-                    Axis::X => turn_column::<T, 0>(&p[k], &z[k]),
-                    Axis::Y => turn_column::<T, 1>(&p[k], &z[k]),
-                    Axis::Z => turn_column::<T, 2>(&p[k], &z[k]),
-                };
-                let hinge = hinge(image, d, own_one(node, torques) - moment)
-                    .ok_or(DynamicsFault::SingularInertia { joint: k })?;
+                let torque = own_one(node, torques);
+                let (projected, bias, hinge) =
+                    project_turn(*axis, &p[k], &z[k], terms[k].product, torque)
+                        .ok_or(DynamicsFault::SingularInertia { joint: k })?;
                 hinges[k] = hinge;
-                project_hinge(&p[k], &z[k], &hinge, terms[k].product)
+                (projected, bias)
             }
             JointKind::Prismatic(axis) => {
                 let (image, d, force) = match axis {
@@ -184,6 +181,27 @@ fn gyroscopic_wrench<T: Real>(node: &Node<T>, omega: Vector3<T>) -> Wrench<T> {
         Vector3::zeros()
     };
     Wrench { force, torque: omega.cross(&node.inertia.rotational.product(omega)) }
+}
+
+/// The inboard step across a revolute joint, before it is carried to the inboard frame: `P − U D⁻¹ Uᵀ`,
+/// `z + (P − U D⁻¹ Uᵀ) c + U D⁻¹ u`, and what the outboard pass needs. `None` where `D` is not
+/// positive.
+#[inline(always)]
+pub(crate) fn project_turn<T: Real>(
+    axis: Axis,
+    p: &ArticulatedInertia<T>,
+    z: &Wrench<T>,
+    product: Twist<T>,
+    torque: T,
+) -> Option<(ArticulatedInertia<T>, Wrench<T>, Hinge<T>)> {
+    let (image, d, moment) = match axis {
+        Axis::X => turn_column::<T, 0>(p, z),
+        Axis::Y => turn_column::<T, 1>(p, z),
+        Axis::Z => turn_column::<T, 2>(p, z),
+    };
+    let hinge = hinge(image, d, torque - moment)?;
+    let (projected, bias) = project_hinge(p, z, &hinge, product);
+    Some((projected, bias, hinge))
 }
 
 /// `U`, `D` and `Hᵀz` of a turn about axis `I`.

@@ -23,6 +23,7 @@ mod mass_matrix;
 
 pub use fault::DynamicsFault;
 pub use forward_dynamics::forward_dynamics;
+pub(crate) use forward_dynamics::project_turn;
 pub use forward_kinematics::{
     Kinematics, body_poses, body_velocities, forward_kinematics, position_rates,
 };

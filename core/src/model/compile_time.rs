@@ -44,7 +44,7 @@ pub(super) const fn product(a: M, b: M) -> M {
 }
 
 /// Square root by Newton's iteration, which decreases to the root from above.
-pub(super) const fn square_root(x: f64) -> f64 {
+pub(crate) const fn square_root(x: f64) -> f64 {
     assert!(x >= 0.0 && x.is_finite(), "square root of a negative or infinite number");
     if x == 0.0 {
         return 0.0;

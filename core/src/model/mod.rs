@@ -16,5 +16,6 @@ mod tree;
 pub use general_joint::{GeneralJoint, GeneralMotion};
 pub use joint::{Axis, JointKind};
 pub use link::Link;
+pub(crate) use compile_time::square_root;
 pub(crate) use tree::Node;
 pub use tree::Tree;

@@ -34,6 +34,8 @@ pub(crate) struct Node<T> {
     pub inertia: RigidInertia<T>,
     /// Whether the centre of mass is away from the joint.
     pub is_eccentric: bool,
+    /// Whether the body's inertia about the joint is the same about every axis.
+    pub is_isotropic: bool,
     /// Centre of mass.
     pub center: Vector3<T>,
     /// This frame from the body frame, where they are not parallel.
@@ -171,6 +173,7 @@ impl<const N: usize, const NQ: usize, const NV: usize> Tree<f64, N, NQ, NV> {
                     },
                 },
                 is_eccentric: node.is_eccentric,
+                is_isotropic: node.is_isotropic,
                 center: vector_f32(&node.center),
                 body_rotation: match &node.body_rotation {
                     Some(m) => Some(matrix_f32(m)),
@@ -306,6 +309,7 @@ const fn node(
             },
         },
         is_eccentric: !is_zero(center),
+        is_isotropic: is_zero(center) && xx == yy && yy == zz && is_zero([yz, zx, xy]),
         center: vector(center),
         body_rotation: matrix_unless_identity(body_rotation),
     }
@@ -398,6 +402,7 @@ const EMPTY: Node<f64> = Node {
         },
     },
     is_eccentric: false,
+    is_isotropic: false,
     center: Vector3::new(0.0, 0.0, 0.0),
     body_rotation: None,
 };
@@ -420,6 +425,7 @@ const EMPTY_F32: Node<f32> = Node {
         },
     },
     is_eccentric: false,
+    is_isotropic: false,
     center: Vector3::new(0.0, 0.0, 0.0),
     body_rotation: None,
 };

@@ -1,0 +1,146 @@
+//! One tick of the balance controller: measured state in, joint torques or a typed fault out.
+
+use super::robot::LEG;
+use super::{
+    CentralBody, Controller, Fault, Input, LegJacobian, LegKinematics, Reference, RobotState,
+    WorkspaceForm, big_base, central_body, desired_acceleration, fixed_foot_wrench, joint_torques,
+    leg_kinematics, wrench_distribution,
+};
+use crate::Real;
+use crate::spatial::{Quaternion, Twist, Wrench};
+use nalgebra::Vector3;
+
+/// What a tick asks of the robot, and why.
+#[derive(Clone, Copy, Debug)]
+pub struct Command<T, const LEGS: usize> {
+    /// Torques by leg, hip to foot, N·m. All finite.
+    pub joint_torques: [[T; LEG]; LEGS],
+    /// `F_1^{bd}`: wrench asked of the legs on the central body, in its frame.
+    pub desired_wrench: Wrench<T>,
+    /// Wrenches of the ground on the feet that would make it, in the feet's body frames.
+    pub foot_wrenches: [Wrench<T>; LEGS],
+    /// `p − p_d`, world frame, m.
+    pub position_error: Vector3<T>,
+    /// `q_e`, world frame, scalar part not negative.
+    pub orientation_error: Quaternion<T>,
+}
+
+/// Algorithms 4.1 to 4.6.
+///
+/// # Errors
+/// A [`Fault`] with its reason. Then there are no torques: what the motors do is for the supervisor
+/// to say.
+///
+/// # Cost
+/// No allocation, no panic, no loop but over legs and joints; the same work for every state that is
+/// not faulty.
+///
+/// ```
+/// use surefoot::balance::{Controller, LeggedRobot, Reference, RobotState, tick};
+/// use surefoot::model::robots::biped;
+/// use surefoot::spatial::{Quaternion, Twist};
+/// use nalgebra::Vector3;
+///
+/// static ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
+/// let controller = Controller::new(&ROBOT);
+/// let leg = [0.0, 40.0, 0.0, -77.46, 0.0, 37.46].map(f64::to_radians);
+/// let state = RobotState {
+///     position: Vector3::new(0.0, 0.0, 1.035),
+///     orientation: Quaternion::identity(),
+///     velocity: Twist::zero(),
+///     joint_angles: [leg; 2],
+///     joint_rates: [[0.0; 6]; 2],
+/// };
+/// let reference = Reference::at_rest(state.position, state.orientation);
+/// let command = tick(&controller, &state, &reference)?;
+/// // At rest at the set point, the legs carry the robot less its feet.
+/// let carried = (biped::TREE.mass() - 2.0 * 1.455) * 9.81;
+/// assert!((command.desired_wrench.force.z / carried - 1.0).abs() < 0.2);
+/// # Ok::<(), surefoot::balance::Fault>(())
+/// ```
+#[inline]
+pub fn tick<T: Real, const LEGS: usize>(
+    controller: &Controller<'_, T, LEGS>,
+    state: &RobotState<T, LEGS>,
+    reference: &Reference<T>,
+) -> Result<Command<T, LEGS>, Fault> {
+    check_finite(state, reference)?;
+    let robot = controller.robot;
+    let central = central_body(robot, state)?;
+    let desired = desired_acceleration(&controller.gains, &central, state.position, reference)?;
+    let legs = leg_kinematics(robot, &central, state);
+    let desired_wrench = desired_wrench(controller, &central, &legs, desired.x)?;
+    let feet = wrench_distribution(desired_wrench, &legs).ok_or(Fault::Overflow)?;
+
+    let mut torques = [[T::zero(); LEG]; LEGS];
+    for (leg, ((torques, kinematics), foot)) in
+        torques.iter_mut().zip(&legs).zip(&feet.in_central_axes).enumerate()
+    {
+        *torques = joint_torques(kinematics, *foot);
+        if !torques.iter().all(|x| x.is_finite()) {
+            return Err(Fault::Overflow);
+        }
+        if let Some(limits) = &controller.foot_limits
+            && let Some(limit) = limits.broken(&central, kinematics, *foot)
+        {
+            return Err(Fault::FootWrench { leg, limit });
+        }
+    }
+    Ok(Command {
+        joint_torques: torques,
+        desired_wrench,
+        foot_wrenches: feet.in_foot_frames,
+        position_error: desired.position_error,
+        orientation_error: desired.orientation_error,
+    })
+}
+
+/// `F_1 = P_1 X + z_1` (4.3) in the controller's form of the workspace dynamics.
+#[inline(always)]
+fn desired_wrench<T: Real, const LEGS: usize>(
+    controller: &Controller<'_, T, LEGS>,
+    central: &CentralBody<T>,
+    legs: &[LegKinematics<T>; LEGS],
+    x: Twist<T>,
+) -> Result<Wrench<T>, Fault> {
+    let robot = controller.robot;
+    match controller.form {
+        WorkspaceForm::FixedFoot => {
+            fixed_foot_wrench(robot, central, legs, controller.singularity, x)
+        }
+        WorkspaceForm::BigBase { factor } => {
+            // The big base has an inertia even for a straight knee, but no torque that makes it move.
+            for (leg, (kinematics, reach)) in legs.iter().zip(&robot.reach).enumerate() {
+                LegJacobian::new(kinematics, *reach, controller.singularity)
+                    .ok_or(Fault::SingularLeg { leg })?;
+            }
+            Ok(big_base(robot, central, legs, factor)?.wrench(x))
+        }
+    }
+}
+
+#[inline(always)]
+fn check_finite<T: Real, const LEGS: usize>(
+    state: &RobotState<T, LEGS>,
+    reference: &Reference<T>,
+) -> Result<(), Fault> {
+    let finite = |v: &Vector3<T>| v.x.is_finite() && v.y.is_finite() && v.z.is_finite();
+    let finite_quaternion = |q: &Quaternion<T>| q.s.is_finite() && finite(&q.v);
+    let check = |good: bool, input| if good { Ok(()) } else { Err(Fault::NotFinite(input)) };
+    check(finite(&state.position), Input::Position)?;
+    check(finite_quaternion(&state.orientation), Input::Orientation)?;
+    check(state.velocity.is_finite(), Input::Velocity)?;
+    for (leg, (angles, rates)) in state.joint_angles.iter().zip(&state.joint_rates).enumerate() {
+        check(angles.iter().all(|x| x.is_finite()), Input::JointAngles(leg))?;
+        check(rates.iter().all(|x| x.is_finite()), Input::JointRates(leg))?;
+    }
+    check(
+        finite(&reference.position)
+            && finite(&reference.velocity)
+            && finite(&reference.acceleration)
+            && finite_quaternion(&reference.orientation)
+            && finite(&reference.angular_velocity)
+            && finite(&reference.angular_acceleration),
+        Input::Reference,
+    )
+}

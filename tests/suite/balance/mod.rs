@@ -1,0 +1,3 @@
+//! Chapter 4: the balance controller.
+
+mod vectors;
