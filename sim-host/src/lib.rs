@@ -1,1 +1,18 @@
-//! placeholder
+//! The host simulator of `surefoot`: plants, contact, scenes, closed loops, records and charts.
+//!
+//! ```text
+//! scene file ─► Scene ─► Plant ─► step ─► Record ─► summary, CSV, charts
+//!                 │        ▲ torques, held between ticks
+//!                 └──► Controller (host f32 or f64)
+//! ```
+//! All of it in f64, but for a controller in f32. A plant allocates when it is built, never in a
+//! step.
+
+pub mod chart;
+pub mod cli;
+pub mod closed_loop;
+pub mod contact;
+pub mod experiments;
+pub mod plant;
+pub mod record;
+pub mod scene;

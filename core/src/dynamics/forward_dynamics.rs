@@ -180,7 +180,7 @@ fn gyroscopic_wrench<T: Real>(node: &Node<T>, omega: Vector3<T>) -> Wrench<T> {
     } else {
         Vector3::zeros()
     };
-    Wrench { force, torque: omega.cross(&node.inertia.rotational.product(omega)) }
+    Wrench { force, torque: node.gyroscopic_torque(omega) }
 }
 
 /// The inboard step across a revolute joint, before it is carried to the inboard frame: `P − U D⁻¹ Uᵀ`,

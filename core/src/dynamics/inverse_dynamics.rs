@@ -173,10 +173,9 @@ fn point_acceleration<T: Real>(omega: Vector3<T>, omega_dot: Vector3<T>) -> Matr
 #[inline(always)]
 fn inertial_wrench<T: Real>(node: &Node<T>, motion: &Motion<T>) -> Wrench<T> {
     let inertia = &node.inertia;
-    let momentum = inertia.rotational.product(motion.omega);
     let mut wrench = Wrench {
         force: motion.a * inertia.mass,
-        torque: inertia.rotational.product(motion.omega_dot) + motion.omega.cross(&momentum),
+        torque: node.rotational_product(motion.omega_dot) + node.gyroscopic_torque(motion.omega),
     };
     if node.is_eccentric {
         wrench.force += motion.k * inertia.first_moment;

@@ -19,6 +19,8 @@ pub(super) struct JointMotion<T> {
     /// Columns of `H`; those from `degrees_of_freedom` on are zero.
     pub map: [Twist<T>; 6],
     pub degrees_of_freedom: usize,
+    /// Whether `H` is the identity.
+    is_free: bool,
     /// `Ḣ β`.
     pub map_rate: Twist<T>,
 }
@@ -59,12 +61,20 @@ impl<T: Real> JointMotion<T> {
                 map_rate = motion.map_rate;
             }
         }
-        Self { map, degrees_of_freedom: node.kind.degrees_of_freedom(), map_rate }
+        Self {
+            map,
+            degrees_of_freedom: node.kind.degrees_of_freedom(),
+            is_free: matches!(node.kind, JointKind::Floating),
+            map_rate,
+        }
     }
 
     /// `H x`.
     #[inline]
     pub fn relative(&self, x: &[T; 6]) -> Twist<T> {
+        if self.is_free {
+            return Twist::from_array(*x);
+        }
         self.map.iter().zip(x).fold(Twist::zero(), |sum, (h, x)| sum + *h * *x)
     }
 

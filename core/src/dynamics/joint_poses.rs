@@ -46,8 +46,7 @@ pub fn joint_poses<T: Real, const N: usize, const NQ: usize, const NV: usize>(
         is_translated: false,
     }; N];
     for (joint, (pose, node)) in relative.iter_mut().zip(&tree.nodes).enumerate() {
-        let theta = coordinates(node, positions);
-        *pose = joint_pose(node, &theta).ok_or(DynamicsFault::QuaternionNotUnit { joint })?;
+        *pose = joint_pose(node, positions).ok_or(DynamicsFault::QuaternionNotUnit { joint })?;
     }
     Ok(JointPoses { relative, positions: *positions })
 }
@@ -66,8 +65,17 @@ pub(super) fn coordinates<T: Real, const NQ: usize>(
     theta
 }
 
+/// The one coordinate of a revolute or prismatic joint.
 #[inline(always)]
-fn joint_pose<T: Real>(node: &Node<T>, theta: &[T; 7]) -> Option<JointPose<T>> {
+fn coordinate<T: Real, const NQ: usize>(node: &Node<T>, positions: &[T; NQ]) -> T {
+    positions.get(node.position_start).copied().unwrap_or(T::zero())
+}
+
+#[inline(always)]
+fn joint_pose<T: Real, const NQ: usize>(
+    node: &Node<T>,
+    positions: &[T; NQ],
+) -> Option<JointPose<T>> {
     let fixed = |rotation| JointPose {
         rotation,
         translation: node.offset,
@@ -76,7 +84,7 @@ fn joint_pose<T: Real>(node: &Node<T>, theta: &[T; 7]) -> Option<JointPose<T>> {
     Some(match &node.kind {
         JointKind::Fixed => fixed(turned(node, Rotation::Identity)),
         JointKind::Revolute(axis) => {
-            let turn = AxisTurn::new(theta[0]);
+            let turn = AxisTurn::new(coordinate(node, positions));
             let rotation = match axis {
                 Axis::X => Rotation::X(turn),
                 Axis::Y => Rotation::Y(turn),
@@ -87,9 +95,9 @@ fn joint_pose<T: Real>(node: &Node<T>, theta: &[T; 7]) -> Option<JointPose<T>> {
         JointKind::Prismatic(axis) => {
             let mut slide = Vector3::zeros();
             match axis {
-                Axis::X => slide.x = theta[0],
-                Axis::Y => slide.y = theta[0],
-                Axis::Z => slide.z = theta[0],
+                Axis::X => slide.x = coordinate(node, positions),
+                Axis::Y => slide.y = coordinate(node, positions),
+                Axis::Z => slide.z = coordinate(node, positions),
             }
             let rotation = turned(node, Rotation::Identity);
             JointPose {
@@ -99,12 +107,12 @@ fn joint_pose<T: Real>(node: &Node<T>, theta: &[T; 7]) -> Option<JointPose<T>> {
             }
         }
         JointKind::Spherical => {
-            let [s, x, y, z, ..] = *theta;
+            let [s, x, y, z, ..] = coordinates(node, positions);
             let q = unit_quaternion([s, x, y, z])?;
             fixed(turned(node, Rotation::General(q.to_matrix())))
         }
         JointKind::Floating => {
-            let [px, py, pz, s, x, y, z] = *theta;
+            let [px, py, pz, s, x, y, z] = coordinates(node, positions);
             let q = unit_quaternion([s, x, y, z])?;
             JointPose {
                 rotation: Rotation::General(q.to_matrix()),
@@ -113,7 +121,7 @@ fn joint_pose<T: Real>(node: &Node<T>, theta: &[T; 7]) -> Option<JointPose<T>> {
             }
         }
         JointKind::General(joint) => {
-            let pose = joint.motion(theta, &[T::zero(); 6]).pose;
+            let pose = joint.motion(&coordinates(node, positions), &[T::zero(); 6]).pose;
             // The joint frames are those of the home configuration: R_home and R(θ) compose as for
             // any other joint, and the joint's own translation is given in the inboard joint frame.
             let home = turned(node, Rotation::Identity);

@@ -17,5 +17,5 @@ pub use general_joint::{GeneralJoint, GeneralMotion};
 pub use joint::{Axis, JointKind};
 pub use link::Link;
 pub(crate) use compile_time::square_root;
-pub(crate) use tree::Node;
+pub(crate) use tree::{InertiaShape, Node};
 pub use tree::Tree;

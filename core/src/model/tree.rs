@@ -34,12 +34,44 @@ pub(crate) struct Node<T> {
     pub inertia: RigidInertia<T>,
     /// Whether the centre of mass is away from the joint.
     pub is_eccentric: bool,
-    /// Whether the body's inertia about the joint is the same about every axis.
-    pub is_isotropic: bool,
+    /// What is known of the inertia about the joint.
+    pub shape: InertiaShape,
     /// Centre of mass.
     pub center: Vector3<T>,
     /// This frame from the body frame, where they are not parallel.
     pub body_rotation: Option<Matrix3<T>>,
+}
+
+/// Structure of a body's inertia about its joint that saves work: most robots' links have some.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum InertiaShape {
+    /// The same about every axis, as of a ball in the joint.
+    Isotropic,
+    /// No products of inertia.
+    Diagonal,
+    /// Nothing special.
+    Full,
+}
+
+impl<T: crate::Real> Node<T> {
+    /// `J v`.
+    #[inline(always)]
+    pub(crate) fn rotational_product(&self, v: Vector3<T>) -> Vector3<T> {
+        let j = &self.inertia.rotational;
+        match self.shape {
+            InertiaShape::Full => j.product(v),
+            InertiaShape::Diagonal | InertiaShape::Isotropic => j.diagonal.component_mul(&v),
+        }
+    }
+
+    /// `ω × J ω`.
+    #[inline(always)]
+    pub(crate) fn gyroscopic_torque(&self, omega: Vector3<T>) -> Vector3<T> {
+        if self.shape == InertiaShape::Isotropic {
+            return Vector3::zeros();
+        }
+        omega.cross(&self.rotational_product(omega))
+    }
 }
 
 /// A tree of `N` bodies with `NQ` coordinates and `NV` velocities, in precision `T`.
@@ -173,7 +205,7 @@ impl<const N: usize, const NQ: usize, const NV: usize> Tree<f64, N, NQ, NV> {
                     },
                 },
                 is_eccentric: node.is_eccentric,
-                is_isotropic: node.is_isotropic,
+                shape: node.shape,
                 center: vector_f32(&node.center),
                 body_rotation: match &node.body_rotation {
                     Some(m) => Some(matrix_f32(m)),
@@ -284,6 +316,14 @@ const fn node(
     let c = product(product(body_rotation, central), transpose(body_rotation));
     let [x, y, z] = center;
     let m = link.mass;
+    let products = [c[1][2] - m * y * z, c[2][0] - m * z * x, c[0][1] - m * x * y];
+    let shape = if !is_zero(products) {
+        InertiaShape::Full
+    } else if is_zero(center) && c[0][0] == c[1][1] && c[1][1] == c[2][2] {
+        InertiaShape::Isotropic
+    } else {
+        InertiaShape::Diagonal
+    };
     Node {
         kind,
         inboard,
@@ -301,15 +341,11 @@ const fn node(
                     c[1][1] + m * (z * z + x * x),
                     c[2][2] + m * (x * x + y * y),
                 ),
-                off_diagonal: Vector3::new(
-                    c[1][2] - m * y * z,
-                    c[2][0] - m * z * x,
-                    c[0][1] - m * x * y,
-                ),
+                off_diagonal: vector(products),
             },
         },
         is_eccentric: !is_zero(center),
-        is_isotropic: is_zero(center) && xx == yy && yy == zz && is_zero([yz, zx, xy]),
+        shape,
         center: vector(center),
         body_rotation: matrix_unless_identity(body_rotation),
     }
@@ -402,7 +438,7 @@ const EMPTY: Node<f64> = Node {
         },
     },
     is_eccentric: false,
-    is_isotropic: false,
+    shape: InertiaShape::Full,
     center: Vector3::new(0.0, 0.0, 0.0),
     body_rotation: None,
 };
@@ -425,7 +461,7 @@ const EMPTY_F32: Node<f32> = Node {
         },
     },
     is_eccentric: false,
-    is_isotropic: false,
+    shape: InertiaShape::Full,
     center: Vector3::new(0.0, 0.0, 0.0),
     body_rotation: None,
 };

@@ -6,7 +6,7 @@
 //! - `m, h, J` mass, first moment and inertia about the joint; `h` and `J` in joint-frame axes
 
 use crate::Real;
-use crate::model::Node;
+use crate::model::{InertiaShape, Node};
 use crate::spatial::Wrench;
 use nalgebra::{Matrix3, Vector3};
 
@@ -30,13 +30,13 @@ pub(super) fn inertial_wrench<T: Real>(
     a: Vector3<T>,
 ) -> Wrench<T> {
     let inertia = &node.inertia;
-    if node.is_isotropic {
+    if node.shape == InertiaShape::Isotropic {
         // ω × Jω = 0, and J needs no axes.
         return Wrench { force: a * inertia.mass, torque: alpha * inertia.rotational.diagonal.x };
     }
     let (omega_b, alpha_b) = (rotation.tr_mul(&omega), rotation.tr_mul(&alpha));
-    let j = &inertia.rotational;
-    let torque = rotation * (j.product(alpha_b) + omega_b.cross(&j.product(omega_b)));
+    let torque =
+        rotation * (node.rotational_product(alpha_b) + node.gyroscopic_torque(omega_b));
     if !node.is_eccentric {
         return Wrench { force: a * inertia.mass, torque };
     }

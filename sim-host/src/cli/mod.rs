@@ -1,0 +1,59 @@
+//! The command line of `surefoot`.
+//!
+//! Results go to stdout, progress and messages to stderr. Exit status: 0 done, 1 the run failed for
+//! a stated reason, 2 bad usage or input.
+
+mod list;
+mod report;
+mod run;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Balance control for articulated robots: simulate, close the loop, look.
+#[derive(Debug, Parser)]
+#[command(name = "surefoot", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run a scene and report (default: experiment-1)
+    Run(run::Options),
+    /// List scenes, integrators and robots
+    List(list::Options),
+}
+
+/// Bad input: said on stderr, or as a JSON document, with exit status 2.
+const BAD_INPUT: u8 = 2;
+/// A run that failed for a stated reason.
+const RUN_FAILED: u8 = 1;
+
+/// Parses the command line and does what it says.
+pub fn main() -> ExitCode {
+    // clap answers bad usage itself, on stderr and with status 2.
+    match Cli::parse().command {
+        None => run::run(&run::Options::parse_from(["run"])),
+        Some(Command::Run(options)) => run::run(&options),
+        Some(Command::List(options)) => list::list(&options),
+    }
+}
+
+/// Writes to stdout; a reader that has gone away (`| head`) is no error of ours.
+fn say(text: &str) {
+    use std::io::Write;
+    let mut out = std::io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// Reports bad input.
+fn bad_input(message: &str, json: bool) -> ExitCode {
+    if json {
+        let document = serde_json::json!({ "error": { "kind": "bad-input", "message": message } });
+        say(&format!("{document:#}\n"));
+    }
+    eprintln!("error: {message}");
+    ExitCode::from(BAD_INPUT)
+}

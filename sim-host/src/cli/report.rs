@@ -1,0 +1,192 @@
+//! What `run` says: as text for people, as JSON for programs.
+
+use crate::closed_loop::{Outcome, Peaks, Run, Scalar};
+use crate::experiments::printed_figures;
+use crate::record::Sample;
+use crate::scene::{Scene, TorquesFrom};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// All that a report is made from.
+pub struct Report<'a> {
+    /// The scene as run.
+    pub scene: &'a Scene,
+    /// Precision of the controller.
+    pub scalar: Scalar,
+    /// The run.
+    pub run: &'a Run,
+    /// The run in the other reading of the first instant.
+    pub other: Option<&'a (TorquesFrom, Run)>,
+}
+
+fn reading(from: TorquesFrom) -> &'static str {
+    match from {
+        TorquesFrom::Start => "torques from t = 0",
+        TorquesFrom::TouchDown => "torques from touch-down",
+    }
+}
+
+/// Unknowns of a step: the velocities, and the constraints where feet are welded.
+fn unknowns(scene: &Scene) -> usize {
+    match scene.feet {
+        crate::scene::Feet::Floor { .. } => 18,
+        crate::scene::Feet::Welded {} => 30,
+    }
+}
+
+/// The summary.
+pub fn text(report: &Report<'_>, files: &[PathBuf]) -> String {
+    let Report { scene, run, .. } = report;
+    let mut out = String::new();
+    // Writing to a string cannot fail.
+    let _ = lines(&mut out, report);
+    for event in run.events.iter().take(SHOWN_EVENTS) {
+        let _ = writeln!(out, "  {:7.4} s  {} {}", event.time_s, event.place, event.kind);
+    }
+    if run.events.len() > SHOWN_EVENTS {
+        let more = run.events.len() - SHOWN_EVENTS;
+        let _ = writeln!(out, "  and {more} more events (--json lists all)");
+    }
+    let _ = tables(&mut out, report);
+    let _ = writeln!(out, "\n{}: files", scene.name);
+    for file in files {
+        let _ = writeln!(out, "  {}", file.display());
+    }
+    out
+}
+
+/// Events that fit a screen.
+const SHOWN_EVENTS: usize = 12;
+
+fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
+    let Report { scene, run, .. } = report;
+    let word = match run.outcome {
+        Outcome::Balanced => "BALANCED",
+        Outcome::Completed => "COMPLETED, but not at the set point",
+        Outcome::Fell => "FELL",
+        Outcome::Failed => "FAILED",
+    };
+    writeln!(out, "{}: {word}", scene.name)?;
+    writeln!(out, "  {}", scene.description)?;
+    if let Some(failure) = &run.failure {
+        writeln!(out, "  at {:.4} s: {}", failure.time_s, failure.place)?;
+        writeln!(out, "  advice: {}", failure.advice)?;
+    }
+    let per_step = run.wall.as_secs_f64() * 1e6 / run.steps.max(1) as f64;
+    writeln!(
+        out,
+        "  {} steps of {} s in {:.2} s ({per_step:.1} µs a step, control included), {}",
+        run.steps,
+        scene.integrator.step_s,
+        run.wall.as_secs_f64(),
+        reading(scene.controller.torques_from),
+    )?;
+    if let Some(last) = run.samples.last() {
+        writeln!(
+            out,
+            "  final error: {:.4} mm, {:.5}°   (asked for: 1 mm, 0.1°)",
+            1e3 * last.error_distance(),
+            last.error_angle().to_degrees(),
+        )?;
+    }
+    if let Some(peaks) = Peaks::of(&run.samples) {
+        let (joint, peak) = peaks.largest_joint();
+        writeln!(out, "  largest torque: {joint}, {:.1} N·m at {} s", peak.value, peak.time_s)?;
+    }
+    if run.constraint_max > 0.0 {
+        writeln!(out, "  feet moved at most {:.2e} (m or rad)", run.constraint_max)?;
+    }
+    Ok(())
+}
+
+fn tables(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
+    let Report { scene, run, other, .. } = report;
+    let mut readings = vec![(scene.controller.torques_from, *run)];
+    readings.extend(other.iter().map(|(from, run)| (*from, run)));
+    for (from, run) in readings {
+        let rows = printed_figures(&scene.name, run);
+        if rows.is_empty() {
+            continue;
+        }
+        writeln!(out, "\n  {:<34}{:>12}{:>12}{:>9}", reading(from), "ours", "printed", "diff")?;
+        for row in rows {
+            writeln!(
+                out,
+                "  {:<34}{:>12}{:>12}{:>8.1}%",
+                row.figure,
+                format!("{:.1} {}", row.ours, row.unit),
+                format!("{} {}", row.printed, row.unit),
+                100.0 * row.relative_difference,
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// The document of `--json`. Keys that have no meaning for a plant are null.
+pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
+    let Report { scene, scalar, run, other } = report;
+    let peaks = Peaks::of(&run.samples);
+    let last = run.samples.last();
+    let peak_torque = peaks.map(|peaks| {
+        let (joint, peak) = peaks.largest_joint();
+        json!({ "value": peak.value, "joint": joint, "time_s": peak.time_s })
+    });
+    let other_reading = other.map(|(from, run)| {
+        json!({
+            "torques_from": from,
+            "outcome": run.outcome,
+            "printed": printed_figures(&scene.name, run),
+        })
+    });
+    json!({
+        "scene": scene.name,
+        "integrator": scene.integrator.name,
+        "step_s": scene.integrator.step_s,
+        "duration_s": scene.duration_s,
+        "scalar": scalar,
+        "controller": "host",
+        "torques_from": scene.controller.torques_from,
+        "steps": run.steps,
+        "outcome": run.outcome,
+        "failure": run.failure,
+        "wall_s": run.wall.as_secs_f64(),
+        "wall_us_per_step": run.wall.as_secs_f64() * 1e6 / run.steps.max(1) as f64,
+        "newton": Value::Null,
+        "unknowns_per_step": unknowns(scene),
+        "energy": energy(&run.samples),
+        "momentum": Value::Null,
+        "constraint_max": run.constraint_max,
+        "peak_torque_nm": peak_torque,
+        "desired_force_z_n": {
+            "max": peaks.map(|peaks| peaks.force_z.value),
+            "final": last.map(|sample| sample.desired_wrench[2]),
+        },
+        "final": {
+            "position_error_m": last.map(Sample::error_distance),
+            "orientation_error_rad": last.map(Sample::error_angle),
+        },
+        "events": run.events,
+        "printed": printed_figures(&scene.name, run),
+        "other_reading": other_reading,
+        "files": files,
+    })
+}
+
+/// Band and slope of the total energy over all samples: a controlled robot's motors do work, so that
+/// these say nothing about the method here, but the keys are the same for every scene.
+fn energy(samples: &[Sample]) -> Value {
+    let totals: Vec<(f64, f64)> =
+        samples.iter().map(|s| (s.time_s, s.energy[0] + s.energy[1])).collect();
+    let Some(&(_, initial)) = totals.first() else { return Value::Null };
+    let high = totals.iter().fold(f64::NEG_INFINITY, |m, (_, e)| m.max(*e));
+    let low = totals.iter().fold(f64::INFINITY, |m, (_, e)| m.min(*e));
+    let n = totals.len() as f64;
+    let mean_t = totals.iter().map(|(t, _)| t).sum::<f64>() / n;
+    let mean_e = totals.iter().map(|(_, e)| e).sum::<f64>() / n;
+    let covariance: f64 = totals.iter().map(|(t, e)| (t - mean_t) * (e - mean_e)).sum();
+    let variance: f64 = totals.iter().map(|(t, _)| (t - mean_t).powi(2)).sum();
+    let slope = if variance > 0.0 { Some(covariance / variance) } else { None };
+    json!({ "initial_j": initial, "band_j": high - low, "slope_j_per_s": slope })
+}

@@ -1,0 +1,131 @@
+//! `surefoot run`
+
+use super::report::{self, Report};
+use super::{RUN_FAILED, bad_input, say};
+use crate::chart::write_charts;
+use crate::closed_loop::{self, Run, Scalar};
+use crate::record::write_csv;
+use crate::scene::{Feet, IntegratorName, Scene, TorquesFrom, load};
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Options of `run`.
+#[derive(Debug, Parser)]
+pub struct Options {
+    /// A built-in scene (see `surefoot list`) or a TOML file
+    #[arg(default_value = "experiment-1")]
+    scene: String,
+    /// Method, instead of the scene's
+    #[arg(long, value_enum)]
+    integrator: Option<IntegratorName>,
+    /// Step in seconds, instead of the scene's
+    #[arg(long, allow_negative_numbers = true)]
+    step: Option<f64>,
+    /// Simulated seconds, instead of the scene's
+    #[arg(long, allow_negative_numbers = true)]
+    duration: Option<f64>,
+    /// Precision of the controller
+    #[arg(long, value_enum, default_value = "f64")]
+    scalar: Scalar,
+    /// When torques set in, instead of the scene's
+    #[arg(long, value_enum)]
+    torques_from: Option<TorquesFrom>,
+    /// Where the record and the charts go (default: out/SCENE)
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// One JSON document on stdout instead of the summary
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the scene and reports.
+pub fn run(options: &Options) -> ExitCode {
+    let scene = match scene(options) {
+        Ok(scene) => scene,
+        Err(message) => return bad_input(&message, options.json),
+    };
+    let run = simulate(&scene, options.scalar);
+    let other = other_reading(&scene)
+        .map(|scene| (scene.controller.torques_from, simulate(&scene, options.scalar)));
+
+    let folder = options.out.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
+    let files = match write_files(&folder, &scene, &run) {
+        Ok(files) => files,
+        Err(message) => return bad_input(&message, options.json),
+    };
+    let report = Report { scene: &scene, scalar: options.scalar, run: &run, other: other.as_ref() };
+    if options.json {
+        say(&format!("{:#}\n", report::json(&report, &files)));
+    } else {
+        say(&report::text(&report, &files));
+    }
+    match &run.failure {
+        None => ExitCode::SUCCESS,
+        Some(failure) => {
+            eprintln!("failed at {:.4} s: {}", failure.time_s, failure.place);
+            ExitCode::from(RUN_FAILED)
+        }
+    }
+}
+
+fn scene(options: &Options) -> Result<Scene, String> {
+    let mut scene = load(&options.scene).map_err(|error| error.to_string())?;
+    if let Some(name) = options.integrator {
+        scene.integrator.name = name;
+    }
+    if let Some(step) = options.step {
+        scene.integrator.step_s = step;
+    }
+    if let Some(duration) = options.duration {
+        scene.duration_s = duration;
+    }
+    if let Some(from) = options.torques_from {
+        scene.controller.torques_from = from;
+    }
+    scene.check().map_err(|error| error.to_string())?;
+    Ok(scene)
+}
+
+/// The same scene in the other reading of the first instant; welded feet have only one.
+fn other_reading(scene: &Scene) -> Option<Scene> {
+    if !matches!(scene.feet, Feet::Floor { .. }) {
+        return None;
+    }
+    let mut other = scene.clone();
+    other.controller.torques_from = match scene.controller.torques_from {
+        TorquesFrom::Start => TorquesFrom::TouchDown,
+        TorquesFrom::TouchDown => TorquesFrom::Start,
+    };
+    Some(other)
+}
+
+/// Runs with a progress bar on stderr, which hides itself where that is no terminal.
+fn simulate(scene: &Scene, scalar: Scalar) -> Run {
+    let bar = ProgressBar::new((scene.duration_s * 1e3) as u64);
+    // The template is constant and valid; were it not, the default style would do.
+    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} ms {eta}") {
+        bar.set_style(style);
+    }
+    bar.set_message(scene.name.clone());
+    let mut controller = closed_loop::controller(scene, scalar);
+    let run = closed_loop::run(scene, controller.as_mut(), &mut |time| {
+        bar.set_position((time * 1e3) as u64);
+    });
+    bar.finish_and_clear();
+    run
+}
+
+fn write_files(folder: &Path, scene: &Scene, run: &Run) -> Result<Vec<PathBuf>, String> {
+    let context = |error: &dyn std::fmt::Display| format!("{}: {error}", folder.display());
+    std::fs::create_dir_all(folder).map_err(|error| context(&error))?;
+    let record = folder.join("record.csv");
+    let file = std::fs::File::create(&record).map_err(|error| context(&error))?;
+    write_csv(&run.samples, std::io::BufWriter::new(file)).map_err(|error| context(&error))?;
+    let mut files = vec![record];
+    files.extend(
+        write_charts(folder, &scene.name, &run.samples).map_err(|error| error.to_string())?,
+    );
+    Ok(files)
+}

@@ -1,0 +1,116 @@
+//! Controllers on the host.
+
+use crate::plant::PlantState;
+use crate::scene::{Scene, Workspace};
+use nalgebra::Vector3;
+use serde::Serialize;
+use surefoot::Real;
+use surefoot::balance::{
+    self, Fault, Gains, LeggedRobot, Reference, RobotState, WorkspaceForm, tick,
+};
+use surefoot::model::robots::biped;
+use surefoot::spatial::{Quaternion, SymmetricMatrix3, Twist};
+
+static ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
+static ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32(&biped::TREE_F32);
+
+/// Precision of the controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
+pub enum Scalar {
+    /// As on the target.
+    F32,
+    /// Double precision.
+    F64,
+}
+
+/// A tick's answer, in f64 whatever the controller computes in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Commanded {
+    /// N·m, left leg then right, hip to foot.
+    pub torques: [f64; 12],
+    /// N, N·m, in the frame of the central body.
+    pub desired_wrench: [f64; 6],
+    /// m, world frame.
+    pub position_error: [f64; 3],
+    /// World frame, scalar first.
+    pub orientation_error: [f64; 4],
+}
+
+/// Anything that turns a measured state into torques.
+pub trait Controller {
+    /// One tick.
+    ///
+    /// # Errors
+    /// The controller's fault.
+    fn tick(&mut self, state: &PlantState) -> Result<Commanded, Fault>;
+}
+
+/// The core's controller, run on the host in precision `T`.
+pub struct HostController<T: 'static> {
+    controller: balance::Controller<'static, T, 2>,
+    reference: Reference<T>,
+}
+
+/// The controller of a scene.
+pub fn controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
+    match scalar {
+        Scalar::F32 => Box::new(HostController::new(&ROBOT_F32, scene)),
+        Scalar::F64 => Box::new(HostController::new(&ROBOT, scene)),
+    }
+}
+
+impl<T: Real> HostController<T> {
+    /// With a scene's gains, form and set point.
+    pub fn new(robot: &'static LeggedRobot<T, 2>, scene: &Scene) -> Self {
+        let diagonal = |[x, y, z]: [f64; 3]| {
+            SymmetricMatrix3::diagonal(T::of(x), T::of(y), T::of(z))
+        };
+        let settings = &scene.controller;
+        let mut controller = balance::Controller::new(robot);
+        controller.gains = Gains {
+            position: diagonal(settings.position_gain),
+            velocity: diagonal(settings.velocity_gain),
+            orientation: diagonal(settings.orientation_gain),
+            angular_velocity: diagonal(settings.angular_velocity_gain),
+        };
+        controller.form = match settings.workspace {
+            Workspace::FixedFoot => WorkspaceForm::FixedFoot,
+            Workspace::BigBase(factor) => WorkspaceForm::BigBase { factor: T::of(factor) },
+        };
+        let reference = Reference::at_rest(
+            Vector3::from(scene.set_point.position_m.map(T::of)),
+            Quaternion::from_array(scene.set_point.orientation.map(T::of)),
+        );
+        Self { controller, reference }
+    }
+}
+
+/// What ideal sensors read, in precision `T`.
+fn measured<T: Real>(state: &PlantState) -> RobotState<T, 2> {
+    let p: [T; 19] = state.positions.map(T::of);
+    let v: [T; 18] = state.velocities.map(T::of);
+    let leg = |all: &[T], leg: usize| std::array::from_fn(|i| all[6 * leg + i]);
+    RobotState {
+        position: Vector3::new(p[0], p[1], p[2]),
+        orientation: Quaternion::from_array([p[3], p[4], p[5], p[6]]),
+        velocity: Twist::from_array([v[0], v[1], v[2], v[3], v[4], v[5]]),
+        joint_angles: [leg(&p[7..], 0), leg(&p[7..], 1)],
+        joint_rates: [leg(&v[6..], 0), leg(&v[6..], 1)],
+    }
+}
+
+impl<T: Real> Controller for HostController<T> {
+    fn tick(&mut self, state: &PlantState) -> Result<Commanded, Fault> {
+        let command = tick(&self.controller, &measured(state), &self.reference)?;
+        let [left, right] = command.joint_torques;
+        Ok(Commanded {
+            torques: std::array::from_fn(|i| {
+                if i < 6 { left[i].to_f64() } else { right[i - 6].to_f64() }
+            }),
+            desired_wrench: command.desired_wrench.to_array().map(Real::to_f64),
+            position_error: [0, 1, 2].map(|i| command.position_error[i].to_f64()),
+            orientation_error: command.orientation_error.to_array().map(Real::to_f64),
+        })
+    }
+}

@@ -1,0 +1,181 @@
+//! One run of a scene.
+
+use super::events::Watch;
+use super::{Commanded, Controller, Failure, Outcome};
+use crate::plant::{OnFloor, Plant, StepFailure, Welded};
+use crate::record::{Event, Sample};
+use crate::scene::{Feet, Scene, TorquesFrom};
+use nalgebra::Vector3;
+use std::time::{Duration, Instant};
+use surefoot::spatial::Quaternion;
+
+/// What a run gives.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Why, if it ended early.
+    pub failure: Option<Failure>,
+    /// One sample a tick, and one at the end.
+    pub samples: Vec<Sample>,
+    /// What happened at the feet.
+    pub events: Vec<Event>,
+    /// Steps made.
+    pub steps: u64,
+    /// Largest violation of a constraint at any sample, m or rad.
+    pub constraint_max: f64,
+    /// Time spent computing.
+    pub wall: Duration,
+}
+
+/// A central body this low (m), or tilted this far (cosine of 60°), has fallen.
+const FALLEN_HEIGHT: f64 = 0.55;
+const FALLEN_UPRIGHT: f64 = 0.5;
+
+/// Runs a scene to its end, or until it fails. `progress` is told the simulated time now and then.
+pub fn run(scene: &Scene, controller: &mut dyn Controller, progress: &mut dyn FnMut(f64)) -> Run {
+    let started = Instant::now();
+    let mut run = Run {
+        outcome: Outcome::Completed,
+        failure: None,
+        samples: Vec::new(),
+        events: Vec::new(),
+        steps: 0,
+        constraint_max: 0.0,
+        wall: Duration::ZERO,
+    };
+    let result = match plant(scene) {
+        Ok(mut plant) => advance(scene, plant.as_mut(), controller, progress, &mut run),
+        Err(failure) => Err(step_failure(0.0, failure)),
+    };
+    if let Err(failure) = result {
+        run.outcome = if failure.kind == "fell" { Outcome::Fell } else { Outcome::Failed };
+        run.failure = Some(failure);
+    } else if let Some(last) = run.samples.last() {
+        let arrived = last.error_distance() < 1e-3 && last.error_angle() < 0.1_f64.to_radians();
+        run.outcome = if arrived { Outcome::Balanced } else { Outcome::Completed };
+    }
+    run.wall = started.elapsed();
+    run
+}
+
+/// The smallest plant that plays the scene: no contact code where feet are welded.
+fn plant(scene: &Scene) -> Result<Box<dyn Plant>, StepFailure> {
+    let start = scene.initial.state();
+    Ok(match &scene.feet {
+        Feet::Floor { outline, floor } => {
+            Box::new(OnFloor::new(start, *floor, &outline.sole()))
+        }
+        Feet::Welded {} => Box::new(Welded::new(start)?),
+    })
+}
+
+fn advance(
+    scene: &Scene,
+    plant: &mut dyn Plant,
+    controller: &mut dyn Controller,
+    progress: &mut dyn FnMut(f64),
+    run: &mut Run,
+) -> Result<(), Failure> {
+    let step = scene.integrator.step_s;
+    // The scene's check has made sure that this is a whole number, at least 1.
+    let steps_per_tick = (1.0 / (scene.controller.rate_hz * step)).round() as u64;
+    let ticks = (scene.duration_s * scene.controller.rate_hz).round().max(1.0) as u64;
+    let mut watch = Watch::default();
+    let mut touched = scene.controller.torques_from == TorquesFrom::Start;
+    for tick in 0..=ticks {
+        let time = (tick * steps_per_tick) as f64 * step;
+        touched |= watch.touched();
+        let command = command(scene, plant, controller, touched, time)?;
+        sample(plant, &command, time, run);
+        fallen(plant, time)?;
+        if tick % 25 == 0 {
+            progress(time);
+        }
+        if tick == ticks {
+            break;
+        }
+        for _ in 0..steps_per_tick {
+            plant.step(step, &command.torques).map_err(|failure| step_failure(time, failure))?;
+            run.steps += 1;
+            if let Some(contacts) = plant.contacts() {
+                watch.look(run.steps as f64 * step, &contacts, &mut run.events);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The torques of this tick; zero before the first touch-down, if the scene says so.
+fn command(
+    scene: &Scene,
+    plant: &dyn Plant,
+    controller: &mut dyn Controller,
+    active: bool,
+    time: f64,
+) -> Result<Commanded, Failure> {
+    if active {
+        return controller.tick(plant.state()).map_err(|fault| Failure {
+            kind: "controller-fault",
+            time_s: time,
+            place: fault.to_string(),
+            advice: "start with bent knees, and keep the set point within the legs' reach".into(),
+        });
+    }
+    let p = &plant.state().positions;
+    let q = Quaternion::from_array([p[3], p[4], p[5], p[6]]);
+    let desired = Quaternion::from_array(scene.set_point.orientation);
+    let error = surefoot::spatial::orientation_error(q, desired);
+    let at = scene.set_point.position_m;
+    Ok(Commanded {
+        torques: [0.0; 12],
+        desired_wrench: [0.0; 6],
+        position_error: [p[0] - at[0], p[1] - at[1], p[2] - at[2]],
+        orientation_error: error.to_array(),
+    })
+}
+
+fn sample(plant: &dyn Plant, command: &Commanded, time_s: f64, run: &mut Run) {
+    let state = plant.state();
+    let seen = plant.observe();
+    run.constraint_max = run.constraint_max.max(seen.constraint);
+    run.samples.push(Sample {
+        time_s,
+        positions: state.positions,
+        velocities: state.velocities,
+        torques: command.torques,
+        desired_wrench: command.desired_wrench,
+        position_error: command.position_error,
+        orientation_error: command.orientation_error,
+        foot_forces: seen.foot_forces,
+        contacts: seen.contacts,
+        energy: [seen.kinetic_energy, seen.potential_energy],
+    });
+}
+
+fn fallen(plant: &dyn Plant, time: f64) -> Result<(), Failure> {
+    let p = &plant.state().positions;
+    let up = Quaternion::from_array([p[3], p[4], p[5], p[6]]).rotate(Vector3::z()).z;
+    let what = if p[2] < FALLEN_HEIGHT {
+        format!("the central body is at {:.2} m, below {FALLEN_HEIGHT} m", p[2])
+    } else if up < FALLEN_UPRIGHT {
+        format!("the central body is tilted by {:.0}°", up.acos().to_degrees())
+    } else {
+        return Ok(());
+    };
+    Err(Failure {
+        kind: "fell",
+        time_s: time,
+        place: what,
+        advice: "see the record: which foot slips, tips or leaves the floor first".into(),
+    })
+}
+
+fn step_failure(time_s: f64, failure: StepFailure) -> Failure {
+    let advice = match failure {
+        StepFailure::Diverged { .. } => "a smaller step, or a softer floor",
+        StepFailure::SingularConstraints => "bend the knees",
+        StepFailure::Dynamics(_) => "check the initial state",
+    };
+    Failure { kind: "step", time_s, place: failure.to_string(), advice: advice.into() }
+}

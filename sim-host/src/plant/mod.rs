@@ -1,0 +1,102 @@
+//! Plants: robots that move under torques.
+
+mod configuration;
+mod on_floor;
+mod welded;
+
+pub use configuration::retract;
+pub use on_floor::OnFloor;
+pub use welded::Welded;
+
+use crate::contact::ContactState;
+use surefoot::dynamics::DynamicsFault;
+
+/// Coordinates of the biped.
+pub const NQ: usize = 19;
+/// Velocities of the biped.
+pub const NV: usize = 18;
+
+/// State of a biped plant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlantState {
+    /// Position and quaternion of the central body, joint angles.
+    pub positions: [f64; NQ],
+    /// Body twist of the central body, joint rates.
+    pub velocities: [f64; NV],
+}
+
+/// What a plant shows besides its state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Observation {
+    /// Kinetic energy, J.
+    pub kinetic_energy: f64,
+    /// Potential energy of gravity, floor at 0, and of the floor's springs, J.
+    pub potential_energy: f64,
+    /// Vertical force of the ground on the left and right foot, N.
+    pub foot_forces: [f64; 2],
+    /// Contact states by foot and corner (heel −y, heel +y, toe −y, toe +y); `None` where the plant
+    /// has no contact points.
+    pub contacts: Option<[[ContactState; 4]; 2]>,
+    /// Largest violation of a constraint, m or rad; zero where there is none.
+    pub constraint: f64,
+}
+
+/// Why a step could not be made.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum StepFailure {
+    /// The equations of motion have no solution here.
+    #[error("{0}")]
+    Dynamics(#[from] DynamicsFault),
+    /// The constraints of welded feet are dependent: some leg is singular.
+    #[error("the constraints of the welded feet are dependent (a straight leg)")]
+    SingularConstraints,
+    /// The state is not a number any more, or far beyond any motion: the step is too large.
+    #[error("velocity {index} grew to {value:e}: the step is too large for this floor or motion")]
+    Diverged {
+        /// Index of the velocity.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+}
+
+/// Speeds beyond this (m/s or rad/s) are taken as divergence: no motion of a person-sized robot has
+/// them.
+const DIVERGED: f64 = 1e4;
+
+/// A biped that moves under joint torques.
+pub trait Plant {
+    /// The present state.
+    fn state(&self) -> &PlantState;
+
+    /// Advances by one step of `step_s` seconds under torques (N·m, left leg then right, hip to
+    /// foot).
+    ///
+    /// # Errors
+    /// A [`StepFailure`]; the state is then that before the step.
+    fn step(&mut self, step_s: f64, torques: &[f64; 12]) -> Result<(), StepFailure>;
+
+    /// Contact states after the last step, by foot and corner; `None` where the plant has none.
+    fn contacts(&self) -> Option<[[ContactState; 4]; 2]>;
+
+    /// Energies, contact and constraints at the present state.
+    fn observe(&self) -> Observation;
+
+    /// Largest step for which the plant is stable, as far as it can be told beforehand, s; `None`
+    /// where nothing limits it but accuracy.
+    fn step_limit(&self) -> Option<f64>;
+}
+
+/// Wrench array of the tree's velocities: torques on the joints, none on the central body.
+fn generalized(torques: &[f64; 12]) -> [f64; NV] {
+    let mut all = [0.0; NV];
+    all[6..].copy_from_slice(torques);
+    all
+}
+
+fn check_velocities(velocities: &[f64; NV]) -> Result<(), StepFailure> {
+    match velocities.iter().position(|v| !(v.abs() <= DIVERGED)) {
+        Some(index) => Err(StepFailure::Diverged { index, value: velocities[index] }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,173 @@
+//! The baseline plant: joint-space forward dynamics (Alg. 3.3) and semi-implicit Euler, with contact
+//! forces at the corners of the soles. It is what most simulators do, kept to compare with.
+
+use super::{
+    NQ, NV, Observation, Plant, PlantState, StepFailure, check_velocities, generalized, retract,
+};
+use crate::contact::{ContactPoint, ContactState, Floor, PointForce};
+use nalgebra::Vector3;
+use surefoot::dynamics::{
+    JointPoses, body_poses, body_velocities, forward_dynamics, joint_poses,
+};
+use surefoot::model::robots::biped::{FEET, SoleOutline, TREE};
+use surefoot::spatial::{Pose, Twist, Wrench};
+
+/// Corners of a sole.
+const CORNERS: usize = 4;
+
+/// The biped on a floor.
+#[derive(Clone, Debug)]
+pub struct OnFloor {
+    state: PlantState,
+    floor: Floor,
+    /// In the feet's body frames, m.
+    corners: [[Vector3<f64>; CORNERS]; 2],
+    points: [[ContactPoint; CORNERS]; 2],
+}
+
+/// Forces of the floor at one state.
+struct Touch {
+    wrenches: [Wrench<f64>; 13],
+    points: [[ContactPoint; CORNERS]; 2],
+    vertical: [f64; 2],
+    spring_energy: f64,
+}
+
+impl OnFloor {
+    /// A biped with these soles. Each foot is the mirror of the other, so that one outline serves
+    /// both.
+    pub fn new(state: PlantState, floor: Floor, outline: &SoleOutline) -> Self {
+        let corners = outline.corners();
+        Self {
+            state,
+            floor,
+            corners: [corners, corners],
+            points: [[ContactPoint::default(); CORNERS]; 2],
+        }
+    }
+
+    fn touch(&self, poses: &[Pose<f64>; 13], velocities: &[Twist<f64>; 13]) -> Touch {
+        let mut touch = Touch {
+            wrenches: [Wrench::zero(); 13],
+            points: self.points,
+            vertical: [0.0; 2],
+            spring_energy: 0.0,
+        };
+        for (foot, body) in FEET.into_iter().enumerate() {
+            let (pose, twist) = (&poses[body], &velocities[body]);
+            for (corner, arm) in self.corners[foot].iter().enumerate() {
+                let position = pose.transform_point(*arm);
+                let velocity = pose.rotation * (twist.linear + twist.angular.cross(arm));
+                let PointForce { force, point, spring_energy } =
+                    self.points[foot][corner].evaluate(&self.floor, position, velocity);
+                let in_body = pose.rotation.tr_mul(&force);
+                touch.wrenches[body] +=
+                    Wrench { force: in_body, torque: arm.cross(&in_body) };
+                touch.vertical[foot] += force.z;
+                touch.points[foot][corner] = point;
+                touch.spring_energy += spring_energy;
+            }
+        }
+        touch
+    }
+}
+
+/// Kinetic energy, and potential energy of gravity, of the biped.
+pub(super) fn energies(
+    poses: &[Pose<f64>; 13],
+    joint_poses: &JointPoses<f64, 13, NQ>,
+    velocities: &[f64; NV],
+) -> (f64, f64) {
+    let m = surefoot::dynamics::mass_matrix(&TREE, joint_poses);
+    let kinetic = m
+        .iter()
+        .zip(velocities)
+        .map(|(row, v)| v * row.iter().zip(velocities).map(|(m, w)| m * w).sum::<f64>())
+        .sum::<f64>()
+        * 0.5;
+    let potential = poses
+        .iter()
+        .enumerate()
+        .map(|(k, pose)| {
+            -TREE.body_mass(k).unwrap_or(0.0) * TREE.gravity().dot(&pose.position)
+        })
+        .sum();
+    (kinetic, potential)
+}
+
+impl Plant for OnFloor {
+    fn state(&self) -> &PlantState {
+        &self.state
+    }
+
+    fn step(&mut self, step_s: f64, torques: &[f64; 12]) -> Result<(), StepFailure> {
+        let PlantState { positions, velocities } = self.state;
+        let relative = joint_poses(&TREE, &positions)?;
+        let touch = self.touch(
+            &body_poses(&TREE, &relative),
+            &body_velocities(&TREE, &relative, &velocities),
+        );
+        let accelerations = forward_dynamics(
+            &TREE,
+            &relative,
+            &velocities,
+            &generalized(torques),
+            Some(&touch.wrenches),
+        )?;
+        let mut next = velocities;
+        for (v, a) in next.iter_mut().zip(accelerations) {
+            *v += step_s * a;
+        }
+        check_velocities(&next)?;
+        self.state =
+            PlantState { positions: retract(&positions, &next, step_s), velocities: next };
+        self.points = touch.points;
+        Ok(())
+    }
+
+    fn contacts(&self) -> Option<[[ContactState; CORNERS]; 2]> {
+        Some(self.points.map(|foot| foot.map(|point| point.state)))
+    }
+
+    fn observe(&self) -> Observation {
+        let PlantState { positions, velocities } = &self.state;
+        let nothing = Observation {
+            kinetic_energy: f64::NAN,
+            potential_energy: f64::NAN,
+            foot_forces: [f64::NAN; 2],
+            contacts: self.contacts(),
+            constraint: 0.0,
+        };
+        // `step` has accepted this state, and a scene is checked before it starts.
+        let Ok(relative) = joint_poses(&TREE, positions) else { return nothing };
+        let poses = body_poses(&TREE, &relative);
+        let touch = self.touch(&poses, &body_velocities(&TREE, &relative, velocities));
+        let (kinetic_energy, potential) = energies(&poses, &relative, velocities);
+        Observation {
+            kinetic_energy,
+            potential_energy: potential + touch.spring_energy,
+            foot_forces: touch.vertical,
+            contacts: self.contacts(),
+            constraint: 0.0,
+        }
+    }
+
+    /// Explicit damping `b` on an effective mass `m` is stable for `h < 2m/b`. The lightest answer to
+    /// a push at a sole's corners is that of a foot alone, rolling about its long axis: 4 points at
+    /// ±5 cm, 4 · 2000 · 0.05² = 20 N·m·s/rad, on 1.89e-3 kg·m² with the sole's height,
+    /// m z² = 1.455 · 0.035² = 1.8e-3, in the same motion.
+    fn step_limit(&self) -> Option<f64> {
+        let [xx, mass] = [0.00189, 1.455];
+        let damping: f64 = self.corners[0]
+            .iter()
+            .map(|c| {
+                self.floor.normal_damping * c.y * c.y
+                    + self.floor.tangential_damping * c.z * c.z
+            })
+            .sum();
+        let roll = 2.0 * xx / damping;
+        let heave = 2.0 * mass / (CORNERS as f64 * self.floor.normal_damping);
+        let stiffness = 2.0 * (mass / (CORNERS as f64 * self.floor.normal_stiffness)).sqrt();
+        Some(roll.min(heave).min(stiffness))
+    }
+}

@@ -1,0 +1,40 @@
+//! Moments of a run.
+
+use serde::Serialize;
+
+/// Something that happened.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Event {
+    /// s
+    pub time_s: f64,
+    /// What.
+    pub kind: EventKind,
+    /// Where: "left foot" or "right foot".
+    #[serde(rename = "where")]
+    pub place: &'static str,
+}
+
+/// Kinds of events.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EventKind {
+    /// The first corner of a sole touches the floor.
+    TouchDown,
+    /// The last corner leaves it.
+    LiftOff,
+    /// A corner starts to slide while others of its foot are down.
+    SlipStart,
+    /// No corner of the foot slides any more.
+    SlipEnd,
+}
+
+impl std::fmt::Display for EventKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::TouchDown => "touches down",
+            Self::LiftOff => "lifts off",
+            Self::SlipStart => "starts to slip",
+            Self::SlipEnd => "stops slipping",
+        })
+    }
+}

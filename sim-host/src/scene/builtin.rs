@@ -1,0 +1,41 @@
+//! The scenes that come with the program.
+
+use super::{Scene, SceneError, parse};
+
+/// A built-in scene: its name and its file.
+#[derive(Clone, Copy, Debug)]
+pub struct BuiltIn {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// The TOML text.
+    pub text: &'static str,
+}
+
+/// All built-in scenes.
+pub const BUILT_IN: [BuiltIn; 2] = [
+    BuiltIn {
+        name: "experiment-1",
+        text: include_str!("../../scenes/experiment-1.toml"),
+    },
+    BuiltIn {
+        name: "experiment-1-welded",
+        text: include_str!("../../scenes/experiment-1-welded.toml"),
+    },
+];
+
+/// The built-in scenes, parsed.
+///
+/// # Errors
+/// Never for the scenes as shipped: a test parses them all.
+pub fn built_in() -> Result<Vec<Scene>, SceneError> {
+    BUILT_IN.iter().map(|scene| parse(scene.name, scene.text)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn all_built_in_scenes_are_valid() {
+        let scenes = super::built_in().expect("valid");
+        assert_eq!(scenes.len(), super::BUILT_IN.len());
+    }
+}

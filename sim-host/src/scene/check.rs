@@ -1,0 +1,179 @@
+//! What a scene must fulfil before it runs.
+
+use super::{Feet, Scene, SceneError, Workspace};
+use nalgebra::Vector3;
+use surefoot::balance::{LeggedRobot, RobotState, central_body, leg_kinematics};
+use surefoot::model::robots::biped;
+use surefoot::spatial::{Quaternion, Twist};
+
+const ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
+
+/// Most steps a run may have: a day of computing, and surely a slip of the pen beyond.
+const MOST_STEPS: f64 = 1e9;
+
+pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
+    numbers(scene)?;
+    timing(scene)?;
+    reach(scene)
+}
+
+fn wrong(
+    scene: &Scene,
+    field: &str,
+    value: impl std::fmt::Debug,
+    expected: impl Into<String>,
+) -> SceneError {
+    SceneError::Value {
+        name: scene.name.clone(),
+        field: field.to_owned(),
+        value: format!("{value:?}"),
+        expected: expected.into(),
+    }
+}
+
+fn numbers(scene: &Scene) -> Result<(), SceneError> {
+    let (initial, set, controller) = (&scene.initial, &scene.set_point, &scene.controller);
+    let finite: [(&str, &[f64]); 7] = [
+        ("initial.position_m", &initial.position_m),
+        ("initial.turn_axis", &initial.turn_axis),
+        ("initial.turn_deg", &[initial.turn_deg]),
+        ("initial.left_leg_deg", &initial.left_leg_deg),
+        ("initial.right_leg_deg", &initial.right_leg_deg),
+        ("set_point.position_m", &set.position_m),
+        ("set_point.orientation", &set.orientation),
+    ];
+    for (field, values) in finite {
+        if !values.iter().all(|x| x.is_finite()) {
+            return Err(wrong(scene, field, values, "finite numbers"));
+        }
+    }
+    let gains: [(&str, &[f64]); 4] = [
+        ("controller.position_gain", &controller.position_gain),
+        ("controller.velocity_gain", &controller.velocity_gain),
+        ("controller.orientation_gain", &controller.orientation_gain),
+        ("controller.angular_velocity_gain", &controller.angular_velocity_gain),
+    ];
+    for (field, values) in gains {
+        if !values.iter().all(|x| x.is_finite() && *x > 0.0) {
+            return Err(wrong(scene, field, values, "finite gains above zero"));
+        }
+    }
+    if Vector3::from(initial.turn_axis).norm() < 1e-9 {
+        return Err(wrong(scene, "initial.turn_axis", initial.turn_axis, "an axis with a length"));
+    }
+    let norm = Quaternion::from_array(set.orientation).norm_squared().sqrt();
+    if (norm - 1.0).abs() > 1e-3 {
+        let expected = format!("a unit quaternion, scalar first (its norm is {norm:.4})");
+        return Err(wrong(scene, "set_point.orientation", set.orientation, expected));
+    }
+    if let Workspace::BigBase(factor) = controller.workspace
+        && !(factor.is_finite() && factor >= 1.0)
+    {
+        let expected = "a finite factor of 1 or more (printed: 1e6)";
+        return Err(wrong(scene, "controller.workspace.big-base", factor, expected));
+    }
+    if let Feet::Floor { floor, .. } = &scene.feet
+        && let Some((name, value, expected)) = floor.invalid()
+    {
+        return Err(wrong(scene, &format!("feet.floor.{name}"), value, expected));
+    }
+    Ok(())
+}
+
+fn timing(scene: &Scene) -> Result<(), SceneError> {
+    let (duration, step) = (scene.duration_s, scene.integrator.step_s);
+    if !(duration.is_finite() && duration > 0.0) {
+        return Err(wrong(scene, "duration_s", duration, "a time above zero, in seconds"));
+    }
+    if !(step.is_finite() && step > 0.0) {
+        return Err(wrong(scene, "integrator.step_s", step, "a step above zero, in seconds"));
+    }
+    if duration / step > MOST_STEPS {
+        let expected = format!("at most {MOST_STEPS:e} steps in {duration} s");
+        return Err(wrong(scene, "integrator.step_s", step, expected));
+    }
+    let rate = scene.controller.rate_hz;
+    let steps = 1.0 / (rate * step);
+    if !(rate.is_finite() && rate > 0.0) || steps < 1.0 - 1e-9 {
+        let expected = format!("a rate above zero and at most one tick a step, {} Hz", 1.0 / step);
+        return Err(wrong(scene, "controller.rate_hz", rate, expected));
+    }
+    if (steps - steps.round()).abs() > 1e-6 * steps {
+        let expected =
+            format!("a whole number of steps of {step} s between ticks (it is {steps:.3})");
+        return Err(wrong(scene, "controller.rate_hz", rate, expected));
+    }
+    Ok(())
+}
+
+/// A set point that the legs reach with the feet where they start.
+fn reach(scene: &Scene) -> Result<(), SceneError> {
+    let start = scene.initial.state();
+    let [s, x, y, z] = std::array::from_fn(|i| start.positions[3 + i]);
+    let state = RobotState {
+        position: Vector3::from(scene.initial.position_m),
+        orientation: Quaternion::from_array([s, x, y, z]),
+        velocity: Twist::zero(),
+        joint_angles: [
+            scene.initial.left_leg_deg.map(f64::to_radians),
+            scene.initial.right_leg_deg.map(f64::to_radians),
+        ],
+        joint_rates: [[0.0; 6]; 2],
+    };
+    let central = central_body(&ROBOT, &state).map_err(|fault| {
+        wrong(scene, "initial", scene.initial, format!("a state to start from: {fault}"))
+    })?;
+    let orientation = Quaternion::from_array(scene.set_point.orientation);
+    let desired = Vector3::from(scene.set_point.position_m);
+    for (leg, side) in leg_kinematics(&ROBOT, &central, &state).iter().zip(["left", "right"]) {
+        let [hip, knee, ankle] = [leg.origins[0], leg.origins[3], leg.origins[5]];
+        let length = (knee - hip).norm() + (ankle - knee).norm();
+        let foot = state.position + central.rotation * ankle;
+        let distance = (desired + orientation.rotate(hip) - foot).norm();
+        if distance >= length {
+            let expected = format!(
+                "a pose that the {side} leg reaches: its hip would be {distance:.3} m from its \
+                 ankle, and the leg is {length:.3} m long"
+            );
+            return Err(wrong(scene, "set_point", scene.set_point, expected));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::builtin::BUILT_IN;
+    use super::super::parse;
+
+    /// One changed line of a good scene, and words that the error must have.
+    #[test]
+    fn every_bad_value_is_refused_with_its_place() {
+        let text = BUILT_IN[0].text;
+        for (from, to, words) in [
+            ("step_s = 5e-5", "step_s = -1e-3", ["integrator.step_s", "above zero"]),
+            ("step_s = 5e-5", "step_s = nan", ["integrator.step_s", "above zero"]),
+            ("step_s = 5e-5", "step_s = 1e-14", ["integrator.step_s", "at most"]),
+            ("duration_s = 3.0", "duration_s = inf", ["duration_s", "above zero"]),
+            ("rate_hz = 500.0", "rate_hz = 0.0", ["controller.rate_hz", "above zero"]),
+            ("rate_hz = 500.0", "rate_hz = 30000.0", ["controller.rate_hz", "one tick a step"]),
+            ("rate_hz = 500.0", "rate_hz = 333.0", ["controller.rate_hz", "whole number"]),
+            ("turn_deg = 5.0", "turn_deg = nan", ["initial.turn_deg", "finite"]),
+            ("turn_axis = [0.0, -1.0, 0.0]", "turn_axis = [0, 0, 0]", ["turn_axis", "length"]),
+            ("position_m = [-0.01, 0.0, 1.10]", "position_m = [-0.01, 0.0, 1.3]", ["set_point", "reaches"]),
+            ("[0.99144486, -0.13052619, 0.0, 0.0]", "[1.0, 1.0, 0.0, 0.0]", ["orientation", "unit"]),
+            ("position_gain = [50.0", "position_gain = [-50.0", ["position_gain", "above zero"]),
+            ("dynamic_friction = 0.3", "dynamic_friction = -0.3", ["dynamic_friction", "zero or more"]),
+            ("workspace = \"fixed-foot\"", "workspace = { big-base = 0.0 }", ["big-base", "1e6"]),
+            ("outline = \"A\"", "outline = \"B\"", ["expected one of", "`M`"]),
+            ("rate_hz = 500.0", "rate_hz = 500.0\nspeed = 3", ["unknown field", "`speed`"]),
+            ("duration_s = 3.0", "duration_s = \"long\"", ["line 4", "float"]),
+        ] {
+            assert!(text.contains(from), "{from}");
+            let error = parse("test", &text.replacen(from, to, 1)).expect_err(to).to_string();
+            for word in words {
+                assert!(error.contains(word), "{to}: {error}");
+            }
+        }
+    }
+}

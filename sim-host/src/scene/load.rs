@@ -1,0 +1,123 @@
+//! From a name or a file to a scene, with errors that say what, where and what was expected.
+
+use super::builtin::BUILT_IN;
+use super::check::check;
+use super::{Initial, Scene};
+use crate::plant::PlantState;
+use nalgebra::Vector3;
+use std::path::Path;
+use surefoot::spatial::Quaternion;
+
+/// Why there is no scene.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SceneError {
+    /// No built-in scene and no file has this name.
+    #[error("no scene is called '{name}', and there is no such file{}", advice(.nearest))]
+    Unknown {
+        /// The name asked for.
+        name: String,
+        /// The built-in scene whose name is nearest.
+        nearest: Option<&'static str>,
+    },
+    /// The file cannot be read.
+    #[error("{path}: {reason}")]
+    Unreadable {
+        /// The file.
+        path: String,
+        /// The system's reason.
+        reason: String,
+    },
+    /// The file is not a scene.
+    #[error("{name}: {message}")]
+    Syntax {
+        /// The scene.
+        name: String,
+        /// Line, what was found and what was expected.
+        message: String,
+    },
+    /// A value makes no sense.
+    #[error("{name}: {field} = {value}: expected {expected}")]
+    Value {
+        /// The scene.
+        name: String,
+        /// Path of the field in the file.
+        field: String,
+        /// What it holds.
+        value: String,
+        /// What would be right.
+        expected: String,
+    },
+}
+
+fn advice(nearest: &Option<&'static str>) -> String {
+    match nearest {
+        Some(name) => format!(" (did you mean '{name}'? `surefoot list` shows all)"),
+        None => " (`surefoot list` shows all)".to_owned(),
+    }
+}
+
+/// A built-in scene by its name, or a scene file by its path.
+///
+/// # Errors
+/// A [`SceneError`].
+pub fn load(name: &str) -> Result<Scene, SceneError> {
+    if let Some(scene) = BUILT_IN.iter().find(|scene| scene.name == name) {
+        return parse(name, scene.text);
+    }
+    let path = Path::new(name);
+    if !path.is_file() {
+        let nearest = BUILT_IN
+            .iter()
+            .map(|scene| (strsim::damerau_levenshtein(name, scene.name), scene.name))
+            .filter(|(distance, _)| *distance <= 5)
+            .min()
+            .map(|(_, name)| name);
+        return Err(SceneError::Unknown { name: name.to_owned(), nearest });
+    }
+    let text = std::fs::read_to_string(path).map_err(|error| SceneError::Unreadable {
+        path: name.to_owned(),
+        reason: error.to_string(),
+    })?;
+    let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
+    parse(stem, &text)
+}
+
+/// A scene from its text, checked.
+///
+/// # Errors
+/// [`SceneError::Syntax`] with the line, or [`SceneError::Value`].
+pub fn parse(name: &str, text: &str) -> Result<Scene, SceneError> {
+    let mut scene: Scene = toml::from_str(text).map_err(|error| SceneError::Syntax {
+        name: name.to_owned(),
+        message: error.to_string().trim_end().to_owned(),
+    })?;
+    name.clone_into(&mut scene.name);
+    check(&scene)?;
+    Ok(scene)
+}
+
+impl Scene {
+    /// Checks the scene again, after a field was changed.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`].
+    pub fn check(&self) -> Result<(), SceneError> {
+        check(self)
+    }
+}
+
+impl Initial {
+    /// The robot's state at the start.
+    pub fn state(&self) -> PlantState {
+        let axis = Vector3::from(self.turn_axis).normalize();
+        let q = Quaternion::from_axis_angle(axis, self.turn_deg.to_radians());
+        let mut positions = [0.0; crate::plant::NQ];
+        positions[..3].copy_from_slice(&self.position_m);
+        positions[3..7].copy_from_slice(&q.to_array());
+        let angles = self.left_leg_deg.iter().chain(&self.right_leg_deg);
+        for (to, degrees) in positions[7..].iter_mut().zip(angles) {
+            *to = degrees.to_radians();
+        }
+        PlantState { positions, velocities: [0.0; crate::plant::NV] }
+    }
+}

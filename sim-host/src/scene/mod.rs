@@ -1,0 +1,158 @@
+//! Scenes: what is simulated, from which state, under which controller.
+//!
+//! A scene is a TOML file. The built-in ones are such files too, read by the same code.
+
+mod builtin;
+mod check;
+mod load;
+
+pub use builtin::{BuiltIn, built_in};
+pub use load::{SceneError, load, parse};
+
+use crate::contact::Floor;
+use serde::{Deserialize, Serialize};
+use surefoot::model::robots::biped::SoleOutline;
+
+/// Everything a run needs to know. Angles in degrees where a name says so, all else in SI units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Name: the built-in's, or the file's.
+    #[serde(skip)]
+    pub name: String,
+    /// One line for people.
+    pub description: String,
+    /// Simulated time, s.
+    pub duration_s: f64,
+    /// Method and step.
+    pub integrator: Integrator,
+    /// Where the robot starts, at rest.
+    pub initial: Initial,
+    /// Where the controller holds it.
+    pub set_point: SetPoint,
+    /// The controller's settings.
+    pub controller: ControllerSettings,
+    /// What the feet stand on.
+    pub feet: Feet,
+}
+
+/// Method and step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Integrator {
+    /// Which method.
+    pub name: IntegratorName,
+    /// Step, s.
+    pub step_s: f64,
+}
+
+/// Methods known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum IntegratorName {
+    /// Velocities first, then positions along the new velocities; joint-space forward dynamics.
+    SemiImplicitEuler,
+}
+
+/// The robot's start, at rest.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Initial {
+    /// Centre of mass of the central body, m.
+    pub position_m: [f64; 3],
+    /// Axis about which it is turned.
+    pub turn_axis: [f64; 3],
+    /// Angle of that turn.
+    pub turn_deg: f64,
+    /// Joint angles, hip to foot.
+    pub left_leg_deg: [f64; 6],
+    /// Joint angles, hip to foot.
+    pub right_leg_deg: [f64; 6],
+}
+
+/// A pose to hold.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SetPoint {
+    /// Centre of mass of the central body, m.
+    pub position_m: [f64; 3],
+    /// Unit quaternion, scalar first.
+    pub orientation: [f64; 4],
+}
+
+/// The controller's settings. Gain matrices are diagonal.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ControllerSettings {
+    /// Ticks per second; torques are held between them.
+    pub rate_hz: f64,
+    /// `K_c^p`, 1/s².
+    pub position_gain: [f64; 3],
+    /// `K_c^v`, 1/s.
+    pub velocity_gain: [f64; 3],
+    /// `K_R^p`, 1/s².
+    pub orientation_gain: [f64; 3],
+    /// `K_R^v`, 1/s.
+    pub angular_velocity_gain: [f64; 3],
+    /// Form of the workspace dynamics.
+    pub workspace: Workspace,
+    /// When torques set in.
+    pub torques_from: TorquesFrom,
+}
+
+/// Form of the workspace dynamics.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Workspace {
+    /// Feet held exactly.
+    FixedFoot,
+    /// Feet this many times as heavy as the central body (printed: 1e6).
+    BigBase(f64),
+}
+
+/// When torques set in: the text leaves open what the robot does before its feet touch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum TorquesFrom {
+    /// At t = 0.
+    Start,
+    /// At the first tick at which a foot touches the floor; zero before.
+    TouchDown,
+}
+
+/// What the feet stand on.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "on", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Feet {
+    /// A floor that they can leave and slide on.
+    Floor {
+        /// Outline of the soles.
+        outline: Outline,
+        /// The floor.
+        floor: Floor,
+    },
+    /// Held where they start.
+    Welded {},
+}
+
+/// Outlines of the sole that fit the printed foot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Outline {
+    /// Heel 5.03 cm behind the ankle, toe 20.15 cm ahead.
+    A,
+    /// 4.0 and 15.5 cm.
+    M,
+    /// 4.4 and 15.9 cm.
+    R,
+}
+
+impl Outline {
+    /// Its corners.
+    pub fn sole(self) -> SoleOutline {
+        match self {
+            Self::A => SoleOutline::A,
+            Self::M => SoleOutline::M,
+            Self::R => SoleOutline::R,
+        }
+    }
+}
