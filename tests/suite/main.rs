@@ -1,4 +1,5 @@
 //! The suite: every algorithm against something that was not written here.
 
 mod balance;
+mod closed_loop;
 mod dynamics;

@@ -94,6 +94,7 @@ fn axes(
     let (low, high) = range(panel);
     let mut chart = ChartBuilder::on(area)
         .caption(&panel.title, ("sans-serif", 16))
+        .margin_left(10)
         .margin_right(12)
         .margin_bottom(6)
         .x_label_area_size(38)

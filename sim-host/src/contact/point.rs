@@ -18,6 +18,8 @@ pub struct ContactPoint {
     pub state: ContactState,
     /// `a_t`, m; has a meaning in states 3 and 4.
     pub anchor: Vector2<f64>,
+    /// Velocity along the floor when last evaluated, m/s; has a meaning in state 2.
+    pub slide: Vector2<f64>,
 }
 
 /// What a point's evaluation gives.
@@ -33,14 +35,17 @@ pub struct PointForce {
 
 impl Default for ContactPoint {
     fn default() -> Self {
-        Self { state: ContactState::Free, anchor: Vector2::zeros() }
+        Self { state: ContactState::Free, anchor: Vector2::zeros(), slide: Vector2::zeros() }
     }
 }
 
 impl ContactPoint {
-    /// The force at a position and velocity, with the transitions they cause. The state entered
-    /// acts at once, but for a point entering the floor: it slides, and may come to rest, in the
-    /// same evaluation.
+    /// The force at a position and velocity, with the transitions they cause. The state entered acts
+    /// at once; a point entering the floor slides, and may come to rest, in the same evaluation.
+    ///
+    /// A sliding point whose velocity has turned back since the last evaluation was at rest in
+    /// between, and counts as slow. Without this, friction that changes the velocity by more than
+    /// the threshold in one step drives the point to and fro for ever.
     pub fn evaluate(
         &self,
         floor: &Floor,
@@ -52,12 +57,13 @@ impl ContactPoint {
         let v_t = velocity.xy();
         let normal = -(floor.normal_stiffness * position.z + floor.normal_damping * velocity.z);
         let speed = v_t.norm();
+        let turned_back = start == ContactState::Sliding && self.slide.dot(&v_t) < 0.0;
         let held =
             -((p_t - self.anchor) * floor.tangential_stiffness + v_t * floor.tangential_damping);
         let conditions = Conditions {
             below_floor: position.z < 0.0,
             pulls: normal < 0.0,
-            slow: speed <= floor.zero_velocity_threshold,
+            slow: speed <= floor.zero_velocity_threshold || turned_back,
             slips: held.norm() > floor.static_friction * normal,
         };
         let mut state = start.next(conditions);
@@ -85,7 +91,7 @@ impl ContactPoint {
         let stretch = if state == ContactState::Sticking { p_t - anchor } else { Vector2::zeros() };
         PointForce {
             force: Vector3::new(tangential.x, tangential.y, normal),
-            point: Self { state, anchor },
+            point: Self { state, anchor, slide: v_t },
             spring_energy: 0.5
                 * (floor.normal_stiffness * depth * depth
                     + floor.tangential_stiffness * stretch.norm_squared()),
@@ -100,7 +106,7 @@ mod tests {
     const FLOOR: Floor = Floor::RUBBER;
 
     fn at(state: ContactState, anchor: [f64; 2]) -> ContactPoint {
-        ContactPoint { state, anchor: Vector2::from(anchor) }
+        ContactPoint { state, anchor: Vector2::from(anchor), slide: Vector2::zeros() }
     }
 
     #[test]
@@ -131,11 +137,26 @@ mod tests {
         let p = Vector3::new(0.3, 0.1, -1e-3);
         let slow = at(ContactState::Sliding, [0.0; 2])
             .evaluate(&FLOOR, p, Vector3::new(5e-4, 0.0, 0.0));
-        assert_eq!(slow.point, at(ContactState::SlidingToSticking, [0.3, 0.1]));
+        assert_eq!(slow.point.state, ContactState::SlidingToSticking);
+        assert_eq!(slow.point.anchor, Vector2::new(0.3, 0.1));
         assert!((slow.force.x + 0.3 * 75.0 * 0.5).abs() < 1e-9);
         let later = slow.point.evaluate(&FLOOR, p + Vector3::x() * 1e-5, Vector3::zeros());
         assert_eq!(later.point.state, ContactState::Sticking);
         assert!((later.force - Vector3::new(-0.75, 0.0, 75.0)).norm() < 1e-9);
+    }
+
+    #[test]
+    fn a_point_that_turned_back_sticks() {
+        let p = Vector3::new(0.3, 0.1, -1e-3);
+        let sliding = at(ContactState::Sliding, [0.0; 2])
+            .evaluate(&FLOOR, p, Vector3::new(4e-3, 0.0, 0.0));
+        assert_eq!(sliding.point.state, ContactState::Sliding);
+        let onward = sliding.point.evaluate(&FLOOR, p, Vector3::new(0.0, 3e-3, 0.0));
+        assert_eq!(onward.point.state, ContactState::Sliding);
+        let back = sliding.point.evaluate(&FLOOR, p, Vector3::new(-4e-3, 0.0, 0.0));
+        assert_eq!(back.point.state, ContactState::SlidingToSticking);
+        // Friction does not push harder than the cone in the state between.
+        assert!((back.force.xy().norm() - 0.3 * 75.0).abs() < 1e-9);
     }
 
     #[test]

@@ -167,7 +167,7 @@ mod tests {
             ("workspace = \"fixed-foot\"", "workspace = { big-base = 0.0 }", ["big-base", "1e6"]),
             ("outline = \"A\"", "outline = \"B\"", ["expected one of", "`M`"]),
             ("rate_hz = 500.0", "rate_hz = 500.0\nspeed = 3", ["unknown field", "`speed`"]),
-            ("duration_s = 3.0", "duration_s = \"long\"", ["line 4", "float"]),
+            ("duration_s = 3.0", "duration_s = \"long\"", ["line 4", "f64"]),
         ] {
             assert!(text.contains(from), "{from}");
             let error = parse("test", &text.replacen(from, to, 1)).expect_err(to).to_string();

@@ -1,0 +1,102 @@
+//! Plants by themselves.
+
+use surefoot::model::robots::biped::{SoleOutline, TREE};
+use surefoot_sim::contact::{ContactState, Floor};
+use surefoot_sim::plant::{NV, OnFloor, Plant, PlantState, Welded};
+use surefoot_sim::scene::load;
+
+/// No floor below: the robot falls, and its energy drifts by what the method is known to do to a fall:
+/// velocities first makes it fall `g h t / 2` further than it should, and lose `m g² h t / 2`. Spins
+/// add less than 1 % to that here.
+#[test]
+fn a_free_robot_falls() {
+    let mut state = load("experiment-1").expect("built in").initial.state();
+    state.positions[2] = 10.0;
+    state.velocities = std::array::from_fn(|i| 0.3 * (i as f64).sin());
+    let energy = |plant: &OnFloor| {
+        let seen = plant.observe();
+        seen.kinetic_energy + seen.potential_energy
+    };
+    let drift = |h: f64| {
+        let mut plant = OnFloor::new(state, Floor::RUBBER, &SoleOutline::A);
+        let before = energy(&plant);
+        for _ in 0..(0.5 / h).round() as usize {
+            plant.step(h, &[0.0; 12]).expect("a regular motion");
+        }
+        assert_eq!(plant.contacts(), Some([[ContactState::Free; 4]; 2]));
+        before - energy(&plant)
+    };
+    let (coarse, fine) = (drift(2e-4), drift(1e-4));
+    println!("{coarse} {fine}");
+    let expected = 0.5 * TREE.mass() * 9.81 * 9.81 * 1e-4 * 0.5;
+    assert!((fine / expected - 1.0).abs() < 0.01, "{fine} J, expected {expected} J");
+    assert!((1.9..2.1).contains(&(coarse / fine)), "first order: {coarse} {fine}");
+}
+
+/// A robot that stands stiffly on the floor is carried with its weight.
+#[test]
+fn ground_forces_carry_the_weight() {
+    let scene = load("experiment-1").expect("built in");
+    let mut controller =
+        surefoot_sim::closed_loop::controller(&scene, surefoot_sim::closed_loop::Scalar::F64);
+    let run = surefoot_sim::closed_loop::run(&scene, controller.as_mut(), &mut |_| {});
+    let last = run.samples.last().expect("samples");
+    let weight = TREE.mass() * 9.81;
+    assert!((last.foot_forces.iter().sum::<f64>() / weight - 1.0).abs() < 1e-4);
+}
+
+/// The welded plant's reaction at rest carries the weight too, by another route.
+#[test]
+fn welds_carry_the_weight() {
+    let scene = load("experiment-1-welded").expect("built in");
+    let mut controller =
+        surefoot_sim::closed_loop::controller(&scene, surefoot_sim::closed_loop::Scalar::F64);
+    let run = surefoot_sim::closed_loop::run(&scene, controller.as_mut(), &mut |_| {});
+    let last = run.samples.last().expect("samples");
+    let weight = TREE.mass() * 9.81;
+    assert!((last.foot_forces.iter().sum::<f64>() / weight - 1.0).abs() < 1e-4);
+}
+
+/// The stated limit of the step is on the safe side.
+#[test]
+fn the_stated_step_limit_is_safe() {
+    let mut scene = load("experiment-1").expect("built in");
+    let limit = OnFloor::new(scene.initial.state(), Floor::RUBBER, &SoleOutline::A)
+        .step_limit()
+        .expect("a floor limits the step");
+    println!("stated limit {limit:e} s");
+    assert!(scene.integrator.step_s < limit);
+    // The largest step below the limit that divides the tick.
+    scene.integrator.step_s = 2e-3 / (2e-3 / limit).ceil();
+    let mut controller =
+        surefoot_sim::closed_loop::controller(&scene, surefoot_sim::closed_loop::Scalar::F64);
+    let run = surefoot_sim::closed_loop::run(&scene, controller.as_mut(), &mut |_| {});
+    assert_eq!(run.outcome, surefoot_sim::closed_loop::Outcome::Balanced, "{:?}", run.failure);
+}
+
+/// Bad states and torques end in a typed failure, and leave the state as it was.
+#[test]
+fn bad_numbers_are_failures() {
+    let good = load("experiment-1").expect("built in").initial.state();
+    for bad in [f64::NAN, f64::INFINITY, 1e300] {
+        let mut plants: Vec<Box<dyn Plant>> = vec![
+            Box::new(OnFloor::new(good, Floor::RUBBER, &SoleOutline::A)),
+            Box::new(Welded::new(good).expect("a configuration")),
+        ];
+        for plant in &mut plants {
+            let mut torques = [0.0; 12];
+            torques[3] = bad;
+            let failure = plant.step(1e-4, &torques).expect_err("not a torque");
+            println!("{bad}: {failure}");
+            assert_eq!(*plant.state(), good);
+        }
+        let broken = PlantState { velocities: [bad; NV], ..good };
+        let mut plant = OnFloor::new(broken, Floor::RUBBER, &SoleOutline::A);
+        assert!(plant.step(1e-4, &[0.0; 12]).is_err());
+        let mut broken = good;
+        broken.positions[8] = bad;
+        if !bad.is_finite() {
+            assert!(Welded::new(broken).is_err());
+        }
+    }
+}
