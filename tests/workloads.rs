@@ -1,0 +1,147 @@
+//! The work that benches and instruction counts measure, declared once: algorithm × model × scalar.
+
+use crate::chains::chain;
+use nalgebra::Vector3;
+use std::hint::black_box;
+use surefoot::Real;
+use surefoot::balance::{Controller, LeggedRobot, Reference, RobotState, WorkspaceForm, tick};
+use surefoot::dynamics::{
+    forward_dynamics, forward_kinematics, inverse_dynamics, joint_poses, mass_matrix,
+};
+use surefoot::model::Tree;
+use surefoot::model::robots::biped;
+use surefoot::spatial::{Quaternion, Twist};
+
+/// One call of an algorithm, joint poses included.
+pub struct Workload {
+    /// `algorithm/model/scalar`
+    pub name: String,
+    /// Makes one call.
+    pub call: Box<dyn Fn()>,
+}
+
+/// Angles and rates that are no special case.
+fn wave<T: Real, const M: usize>(phase: f64) -> [T; M] {
+    std::array::from_fn(|i| T::of(0.5 * (1.3 * i as f64 + phase).sin()))
+}
+
+fn on_tree<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    model: &str,
+    scalar: &str,
+    tree: &'static Tree<T, N, NQ, NV>,
+    q: [T; NQ],
+) -> Vec<Workload> {
+    let v: [T; NV] = wave(0.4);
+    let a: [T; NV] = wave(0.9);
+    let named = |algorithm: &str, call: Box<dyn Fn()>| Workload {
+        name: format!("{algorithm}/{model}/{scalar}"),
+        call,
+    };
+    let poses = move || joint_poses(tree, black_box(&q)).expect("finite");
+    vec![
+        named(
+            "forward-kinematics",
+            Box::new(move || {
+                let kinematics =
+                    forward_kinematics(tree, &poses(), black_box(&v), black_box(&a));
+                black_box(&kinematics);
+            }),
+        ),
+        named(
+            "inverse-dynamics",
+            Box::new(move || {
+                let torques =
+                    inverse_dynamics(tree, &poses(), black_box(&v), black_box(&a), None);
+                black_box(&torques);
+            }),
+        ),
+        named(
+            "forward-dynamics",
+            Box::new(move || {
+                let result =
+                    forward_dynamics(tree, &poses(), black_box(&v), black_box(&a), None);
+                black_box(&result);
+            }),
+        ),
+        named(
+            "mass-matrix",
+            Box::new(move || {
+                black_box(&mass_matrix(tree, &poses()));
+            }),
+        ),
+    ]
+}
+
+/// A configuration of the biped that is no special case.
+pub fn biped_positions<T: Real>() -> [T; 19] {
+    let mut q: [T; 19] = wave(0.2);
+    let turn = [0.999_048_221_581_857_8, 0.0, -0.043_619_387_365_336, 0.0];
+    for (to, from) in q[3..7].iter_mut().zip(turn) {
+        *to = T::of(from);
+    }
+    q
+}
+
+fn on_biped<T: Real>(
+    scalar: &str,
+    tree: &'static biped::Biped<T>,
+    robot: &'static LeggedRobot<T, 2>,
+) -> Vec<Workload> {
+    let mut all = on_tree("biped", scalar, tree, biped_positions());
+    let leg = [0.05, 0.6, 0.1, -1.3, 0.05, 0.7].map(T::of);
+    let state = RobotState {
+        position: Vector3::new(T::of(0.01), T::of(-0.02), T::of(1.04)),
+        orientation: Quaternion::from_array([0.999_048_221_581_857_8, 0.0, -0.043_619_387_365_336, 0.0].map(T::of)),
+        velocity: Twist::from_array(wave(0.1)),
+        joint_angles: [leg, leg],
+        joint_rates: [wave(0.5), wave(0.7)],
+    };
+    let reference = Reference::at_rest(
+        Vector3::new(T::of(-0.01), T::zero(), T::of(1.1)),
+        Quaternion::identity(),
+    );
+    for (form, name) in [
+        (WorkspaceForm::FixedFoot, "tick-fixed-foot"),
+        (WorkspaceForm::BigBase { factor: T::of(1e3) }, "tick-big-base"),
+    ] {
+        let mut controller = Controller::new(robot);
+        controller.form = form;
+        all.push(Workload {
+            name: format!("{name}/biped/{scalar}"),
+            call: Box::new(move || {
+                let command =
+                    tick(black_box(&controller), black_box(&state), black_box(&reference));
+                assert!(black_box(command).is_ok());
+            }),
+        });
+    }
+    all
+}
+
+static TREE: biped::Biped<f64> = biped::TREE;
+static TREE_F32: biped::Biped<f32> = biped::TREE_F32;
+static ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
+static ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32(&biped::TREE_F32);
+
+/// A chain's workloads in both scalars; the trees live as long as the program.
+fn on_chain<const N: usize>() -> Vec<Workload> {
+    let double: &'static Tree<f64, N, N, N> = Box::leak(Box::new(chain::<N>()));
+    let single: &'static Tree<f32, N, N, N> = Box::leak(Box::new(double.to_f32()));
+    let model = format!("chain-{N}");
+    let mut all = on_tree(&model, "f64", double, wave(0.2));
+    all.extend(on_tree(&model, "f32", single, wave(0.2)));
+    all
+}
+
+/// Everything that is measured.
+pub fn workloads() -> Vec<Workload> {
+    let mut all = on_biped("f64", &TREE, &ROBOT);
+    all.extend(on_biped("f32", &TREE_F32, &ROBOT_F32));
+    all.extend(on_chain::<6>());
+    all.extend(on_chain::<12>());
+    all.extend(on_chain::<25>());
+    all.extend(on_chain::<50>());
+    all.extend(on_chain::<100>());
+    all.extend(on_chain::<200>());
+    all
+}
