@@ -1,5 +1,7 @@
 //! Shared problems and fixtures of the suite.
 
 pub mod chains;
+pub mod quadruped;
+pub mod random_trees;
 pub mod vectors;
 pub mod workloads;

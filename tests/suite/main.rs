@@ -3,3 +3,4 @@
 mod balance;
 mod closed_loop;
 mod dynamics;
+mod spatial;

@@ -125,7 +125,7 @@ fn debian() -> Result<ArmToolchain> {
             // Building core from source is for nightly compilers, or for those told to be one.
             ("RUSTC_BOOTSTRAP", "1".to_owned()),
             ("CARGO_UNSTABLE_BUILD_STD", "core".to_owned()),
-            ("__CARGO_TESTS_ONLY_SRC_ROOT", format!("/usr/src/rustc-{version}")),
+            ("__CARGO_TESTS_ONLY_SRC_ROOT", format!("/usr/src/rustc-{version}/library")),
             ("CARGO_TARGET_THUMBV7EM_NONE_EABIHF_LINKER", linker),
         ],
     })

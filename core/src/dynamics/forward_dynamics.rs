@@ -71,7 +71,7 @@ pub fn forward_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
     let mut hinges = [idle; N];
     for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate().rev() {
         let (projected, bias) = match &node.kind {
-            JointKind::Fixed => (p[k], z[k]),
+            JointKind::Fixed => (p[k], z[k] + p[k].product(terms[k].product)),
             JointKind::Revolute(axis) => {
                 let torque = own_one(node, torques);
                 let (projected, bias, hinge) =

@@ -1,3 +1,7 @@
 //! Chapter 4: the balance controller.
 
+mod distribution;
+mod faults;
+mod orientation;
 mod vectors;
+mod workspace;

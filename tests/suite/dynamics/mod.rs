@@ -1,3 +1,8 @@
 //! Chapter 3: kinematics and dynamics of trees.
 
+mod closed_forms;
+mod faults;
+mod identities;
+mod momentum;
 mod vectors;
+mod virtual_work;
