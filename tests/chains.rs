@@ -9,8 +9,11 @@ pub const fn chain<const N: usize>() -> Tree<f64, N, N, N> {
     let mut k = 0;
     while k < N {
         let at = 0.1 * k as f64;
-        links[k] = Link::revolute(k, AXES[k % 3], [at, 0.0, 0.0])
-            .body(0.5, [2e-4, 5e-4, 5e-4], [at + 0.05, 0.0, 0.0]);
+        links[k] = Link::revolute(k, AXES[k % 3], [at, 0.0, 0.0]).body(
+            0.5,
+            [2e-4, 5e-4, 5e-4],
+            [at + 0.05, 0.0, 0.0],
+        );
         k += 1;
     }
     Tree::new(links)

@@ -32,16 +32,31 @@ const fn links() -> [Link; 25] {
         let y = if leg % 2 == 0 { 0.15 } else { -0.15 };
         let first = 6 * leg + 1;
         let small = [4e-4, 5e-4, 6e-4];
-        links[first] = Link::revolute(1, [1.0, 0.0, 0.0], [x, y, 0.55])
-            .body(0.6, small, [x, y + 0.02 * y, 0.54]);
-        links[first + 1] = Link::revolute(first + 1, [0.0, 1.0, 0.0], [x, 1.3 * y, 0.55])
-            .body(1.2, [0.01, 0.011, 0.002], [x + 0.01, 1.3 * y, 0.42]);
-        links[first + 2] = Link::revolute(first + 2, [0.0, 1.0, 0.2], [x, 1.3 * y, 0.30])
-            .body(0.5, [0.002, 0.002, 0.0005], [x, 1.3 * y, 0.20]);
-        links[first + 3] = Link::revolute(first + 3, [0.0, 0.0, 1.0], [x, 1.3 * y, 0.15])
-            .body(0.2, small, [x, 1.3 * y, 0.12]);
-        links[first + 4] = Link::revolute(first + 4, [0.0, 1.0, 0.0], [x, 1.3 * y, 0.08])
-            .body(0.1, [1e-4, 1e-4, 1e-4], [x, 1.3 * y, 0.08]);
+        links[first] = Link::revolute(1, [1.0, 0.0, 0.0], [x, y, 0.55]).body(
+            0.6,
+            small,
+            [x, y + 0.02 * y, 0.54],
+        );
+        links[first + 1] = Link::revolute(first + 1, [0.0, 1.0, 0.0], [x, 1.3 * y, 0.55]).body(
+            1.2,
+            [0.01, 0.011, 0.002],
+            [x + 0.01, 1.3 * y, 0.42],
+        );
+        links[first + 2] = Link::revolute(first + 2, [0.0, 1.0, 0.2], [x, 1.3 * y, 0.30]).body(
+            0.5,
+            [0.002, 0.002, 0.0005],
+            [x, 1.3 * y, 0.20],
+        );
+        links[first + 3] = Link::revolute(first + 3, [0.0, 0.0, 1.0], [x, 1.3 * y, 0.15]).body(
+            0.2,
+            small,
+            [x, 1.3 * y, 0.12],
+        );
+        links[first + 4] = Link::revolute(first + 4, [0.0, 1.0, 0.0], [x, 1.3 * y, 0.08]).body(
+            0.1,
+            [1e-4, 1e-4, 1e-4],
+            [x, 1.3 * y, 0.08],
+        );
         links[first + 5] = Link::revolute(first + 5, [1.0, 0.0, 0.0], [x, 1.3 * y, 0.05])
             .body(0.3, [3e-4, 4e-4, 5e-4], [x + 0.02, 1.3 * y, 0.02])
             .oriented([0.8, 0.0, 0.6, 0.0]);

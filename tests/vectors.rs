@@ -18,12 +18,8 @@ fn parse(text: &str) -> Value {
 
 /// The numbers of an array, which must have `N` of them.
 pub fn array<const N: usize>(value: &Value) -> [f64; N] {
-    let numbers: Vec<f64> = value
-        .as_array()
-        .expect("an array")
-        .iter()
-        .map(|x| x.as_f64().expect("a number"))
-        .collect();
+    let numbers: Vec<f64> =
+        value.as_array().expect("an array").iter().map(|x| x.as_f64().expect("a number")).collect();
     numbers.try_into().expect("as many numbers as asked for")
 }
 

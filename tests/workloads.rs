@@ -42,24 +42,21 @@ fn on_tree<T: Real, const N: usize, const NQ: usize, const NV: usize>(
         named(
             "forward-kinematics",
             Box::new(move || {
-                let kinematics =
-                    forward_kinematics(tree, &poses(), black_box(&v), black_box(&a));
+                let kinematics = forward_kinematics(tree, &poses(), black_box(&v), black_box(&a));
                 black_box(&kinematics);
             }),
         ),
         named(
             "inverse-dynamics",
             Box::new(move || {
-                let torques =
-                    inverse_dynamics(tree, &poses(), black_box(&v), black_box(&a), None);
+                let torques = inverse_dynamics(tree, &poses(), black_box(&v), black_box(&a), None);
                 black_box(&torques);
             }),
         ),
         named(
             "forward-dynamics",
             Box::new(move || {
-                let result =
-                    forward_dynamics(tree, &poses(), black_box(&v), black_box(&a), None);
+                let result = forward_dynamics(tree, &poses(), black_box(&v), black_box(&a), None);
                 black_box(&result);
             }),
         ),
@@ -91,7 +88,9 @@ fn on_biped<T: Real>(
     let leg = [0.05, 0.6, 0.1, -1.3, 0.05, 0.7].map(T::of);
     let state = RobotState {
         position: Vector3::new(T::of(0.01), T::of(-0.02), T::of(1.04)),
-        orientation: Quaternion::from_array([0.999_048_221_581_857_8, 0.0, -0.043_619_387_365_336, 0.0].map(T::of)),
+        orientation: Quaternion::from_array(
+            [0.999_048_221_581_857_8, 0.0, -0.043_619_387_365_336, 0.0].map(T::of),
+        ),
         velocity: Twist::from_array(wave(0.1)),
         joint_angles: [leg, leg],
         joint_rates: [wave(0.5), wave(0.7)],

@@ -1,10 +1,21 @@
-//! Tells the linker where memory.x lies, for the target only.
+//! Links the images with cortex-m-rt's script and the board's memory map. On the host there is
+//! nothing to say.
+
+use std::env;
+use std::path::Path;
 
 fn main() {
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-    println!("cargo:rerun-if-changed={root}/memory.x");
-    if std::env::var("CARGO_CFG_TARGET_OS").is_ok_and(|os| os == "none") {
-        println!("cargo:rustc-link-search={root}");
-        println!("cargo:rustc-link-arg-bins=-Tlink.x");
+    println!("cargo::rerun-if-changed=build.rs");
+    if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
+        return;
     }
+    let package = env::var("CARGO_MANIFEST_DIR").expect("cargo sets it for build scripts");
+    let workspace = Path::new(&package).join("../..");
+    println!("cargo::rerun-if-changed={}", workspace.join("memory.x").display());
+    println!("cargo::rustc-link-search={}", workspace.display());
+    println!("cargo::rustc-link-arg-bins=-Tlink.x");
+    // No gap of a page between headers and flash: the image starts where the flash does.
+    println!("cargo::rustc-link-arg-bins=--nmagic");
+    // Kept so that the check can say from where a panicking function is called.
+    println!("cargo::rustc-link-arg-bins=--emit-relocs");
 }

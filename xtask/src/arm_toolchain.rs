@@ -1,163 +1,179 @@
-//! A compiler for thumbv7em-none-eabihf, by one of two ways.
+//! A compiler for the target, thumbv7em-none-eabihf (Cortex-M4F).
 //!
-//! 1. `rustup target add`: core precompiled. Needs rustup's server.
-//! 2. Debian's `rustc-web` with `rust-web-src`: the same cargo, that compiler, and core built from
-//!    its source. Needs Debian's packages. Compiler and source must be of one version, so that both
-//!    are installed at the version that apt offers for the first.
-//!
-//! `SUREFOOT_ARM_TOOLCHAIN=rustup` or `debian` chooses; else the first that works is taken.
+//! Two ways lead to one. The first is rustup's compiled `core` for the target. Where its server
+//! cannot be reached, Debian's packages of the compiler and of its sources do: cargo then compiles
+//! `core` itself, which a released compiler does only with `RUSTC_BOOTSTRAP`. Debian's compiler
+//! comes without a linker for the target; the rustup toolchain that runs cargo has one.
 
-use crate::shell::{apt_install, cargo, output};
-use anyhow::{Context, Result, bail};
-use std::process::Command;
-use std::time::{Duration, Instant};
+use crate::step::Step;
+use crate::{apt, workspace};
+use anyhow::{Context, Result, bail, ensure};
+use std::env;
+use std::fmt;
+use std::path::{Path, PathBuf};
 
-/// The target of a Cortex-M4F.
+/// The target's triple.
 pub const TARGET: &str = "thumbv7em-none-eabihf";
 
-/// How long rustup may try to reach its server.
-const PATIENCE: Duration = Duration::from_secs(120);
+/// Environment variable that says which way to go: `rustup`, `debian`, or `auto` (the default: one
+/// after the other).
+const CHOICE: &str = "SUREFOOT_ARM_TOOLCHAIN";
 
-/// Where Debian puts its compiler.
+/// Debian's packages of the compiler and of the sources it was built from. Both must have one
+/// version: a compiler compiles no other version's `core`.
+const PACKAGES: [&str; 2] = ["rustc-web", "rust-web-src"];
 const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 
-/// What has to be set to compile for the target.
-pub struct ArmToolchain {
-    name: String,
-    environment: Vec<(&'static str, String)>,
+/// Seconds to wait for rustup. It downloads a few MB; a server that does not answer keeps it
+/// waiting.
+const RUSTUP_LIMIT: u64 = 120;
+
+/// A compiler that can compile for the target.
+pub enum ArmToolchain {
+    /// The compiler that cargo uses anyway, with a compiled `core` beside it.
+    Rustup,
+    /// Debian's compiler, which compiles `core` from source.
+    Debian {
+        /// Version of both packages.
+        version: String,
+        /// The linker of the toolchain that runs cargo.
+        linker: PathBuf,
+    },
 }
 
 impl ArmToolchain {
-    /// The compiler's name and version.
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// A cargo command that compiles for the target; its files go to a folder of their own, since
-    /// they may come from another compiler than the host's.
-    pub fn cargo(&self, subcommand: &str) -> Command {
-        let mut command = cargo();
-        command.args([subcommand, "--target", TARGET, "--target-dir", "target/arm"]);
-        command.envs(self.environment.iter().map(|(name, value)| (*name, value)));
-        command
-    }
-}
-
-/// Finds or installs a compiler for the target.
-///
-/// # Errors
-/// If neither way works, with both reasons.
-pub fn arm_toolchain() -> Result<ArmToolchain> {
-    match std::env::var("SUREFOOT_ARM_TOOLCHAIN").as_deref() {
-        Ok("rustup") => rustup(),
-        Ok("debian") => debian(),
-        Ok(other) if other != "auto" => {
-            bail!("SUREFOOT_ARM_TOOLCHAIN={other}: expected rustup, debian or auto")
+    /// Finds a compiler for the target, and installs one where there is none.
+    pub fn provide() -> Result<Self> {
+        let choice = env::var_os(CHOICE).unwrap_or_else(|| "auto".into());
+        match choice.to_str() {
+            Some("rustup") => Self::from_rustup(),
+            Some("debian") => Self::from_debian(),
+            Some("auto") => Self::from_rustup().or_else(|rustup| {
+                eprintln!("{rustup:#}\nSo now Debian's packages are tried.");
+                Self::from_debian().map_err(|debian| neither(&rustup, &debian))
+            }),
+            _ => bail!("{CHOICE} must be rustup, debian or auto, and is {}", choice.display()),
         }
-        _ => rustup().or_else(|first| {
-            eprintln!("no target by rustup ({first:#}); trying Debian's compiler");
-            debian().with_context(|| format!("rustup: {first:#}; and Debian's compiler"))
-        }),
     }
-}
 
-fn rustup() -> Result<ArmToolchain> {
-    let installed = output(Command::new("rustup").args(["target", "list", "--installed"]))?;
-    if !installed.lines().any(|line| line == TARGET) {
-        add_target()?;
-    }
-    let name = output(Command::new("rustc").arg("--version"))?.trim().to_owned();
-    Ok(ArmToolchain { name, environment: Vec::new() })
-}
-
-/// `rustup target add`, stopped when the server does not answer.
-fn add_target() -> Result<()> {
-    let mut child = Command::new("rustup")
-        .args(["target", "add", TARGET])
-        .spawn()
-        .context("cannot start rustup")?;
-    let started = Instant::now();
-    loop {
-        if let Some(status) = child.try_wait()? {
-            if status.success() {
-                return Ok(());
-            }
-            bail!("`rustup target add {TARGET}` did not succeed");
+    /// A cargo command that compiles for the target with this compiler.
+    pub fn cargo(&self, subcommand: &str) -> Step {
+        let cargo = workspace::cargo([subcommand, "--target", TARGET]);
+        match self {
+            Self::Rustup => cargo,
+            Self::Debian { linker, .. } => cargo
+                .env("RUSTC", DEBIAN_RUSTC)
+                .env("RUSTC_BOOTSTRAP", "1")
+                .env("CARGO_UNSTABLE_BUILD_STD", "core")
+                .env("CARGO_TARGET_THUMBV7EM_NONE_EABIHF_LINKER", linker),
         }
-        if started.elapsed() > PATIENCE {
-            child.kill()?;
-            child.wait()?;
-            bail!("`rustup target add {TARGET}` got no answer in {} s", PATIENCE.as_secs());
-        }
-        std::thread::sleep(Duration::from_millis(100));
     }
-}
 
-fn debian() -> Result<ArmToolchain> {
-    let ready = compiler_version().is_ok_and(|version| source_version().is_some_and(|s| s == version));
-    if !ready {
-        let policy = output(Command::new("apt-cache").args(["policy", "rustc-web"]))
-            .context("no apt on this machine, and so no Debian compiler")?;
-        let candidate = candidate(&policy);
-        let version = match candidate {
+    fn from_rustup() -> Result<Self> {
+        if !has_compiled_core()? {
+            // Its own word, not its stack, where it fails.
+            let add = Step::new("rustup", ["target", "add", TARGET]).env("RUST_BACKTRACE", "0");
+            add.within(RUSTUP_LIMIT).run_silently()?;
+            ensure!(
+                has_compiled_core()?,
+                "rustup added {TARGET} to another toolchain than the one that runs cargo"
+            );
+        }
+        Ok(Self::Rustup)
+    }
+
+    fn from_debian() -> Result<Self> {
+        let linker = linker()?;
+        let usable = installed_pair().filter(|version| expect_new_enough(version).is_ok());
+        let version = match usable {
             Some(version) => version,
             None => {
-                apt_install(&["ca-certificates"])?;
-                let policy = output(Command::new("apt-cache").args(["policy", "rustc-web"]))?;
-                self::candidate(&policy).context("apt offers no package rustc-web")?
+                apt::install_same_version(PACKAGES, expect_new_enough)?;
+                installed_pair().context("apt-get installed the packages, but dpkg lacks them")?
             }
         };
-        apt_install(&[
-            &format!("rustc-web={version}"),
-            &format!("rust-web-src={version}"),
-        ])?;
+        let sources = Step::new(DEBIAN_RUSTC, ["--print", "sysroot"]).read()?;
+        let sources = Path::new(&sources).join("lib/rustlib/src/rust/library");
+        ensure!(
+            sources.is_dir(),
+            "the compiler {DEBIAN_RUSTC} looks for its sources in {}, where {} has not put them",
+            sources.display(),
+            PACKAGES[1]
+        );
+        Ok(Self::Debian { version, linker })
     }
-    let version = compiler_version()?;
-    match source_version() {
-        Some(source) if source == version => {}
-        source => bail!("Debian's compiler is {version}, its source {source:?}: they must agree"),
+}
+
+impl fmt::Display for ArmToolchain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Rustup => write!(f, "rustup's core for {TARGET}"),
+            Self::Debian { version, .. } => {
+                write!(f, "Debian's compiler {version}, with core from its sources")
+            }
+        }
     }
-    let linker = rust_lld()?;
-    Ok(ArmToolchain {
-        name: format!("Debian's rustc {version}, core from source"),
-        environment: vec![
-            ("RUSTC", DEBIAN_RUSTC.to_owned()),
-            // Building core from source is for nightly compilers, or for those told to be one.
-            ("RUSTC_BOOTSTRAP", "1".to_owned()),
-            ("CARGO_UNSTABLE_BUILD_STD", "core".to_owned()),
-            ("__CARGO_TESTS_ONLY_SRC_ROOT", format!("/usr/src/rustc-{version}/library")),
-            ("CARGO_TARGET_THUMBV7EM_NONE_EABIHF_LINKER", linker),
-        ],
-    })
 }
 
-fn candidate(policy: &str) -> Option<String> {
-    let line = policy.lines().find_map(|line| line.trim().strip_prefix("Candidate: "))?;
-    (line != "(none)").then(|| line.to_owned())
+/// Whether cargo's own compiler has a compiled `core` for the target.
+fn has_compiled_core() -> Result<bool> {
+    let folder = workspace::rustc(["--print", "target-libdir", "--target", TARGET]).read()?;
+    let Ok(files) = Path::new(&folder).read_dir() else { return Ok(false) };
+    Ok(files.flatten().any(|file| file.file_name().to_string_lossy().starts_with("libcore-")))
 }
 
-/// "1.96.0" of "rustc 1.96.0 (…)".
-fn compiler_version() -> Result<String> {
-    let text = output(Command::new(DEBIAN_RUSTC).arg("--version"))?;
-    let version = text.split_whitespace().nth(1).context("rustc prints no version")?;
-    Ok(version.to_owned())
+/// The linker that rustup's toolchains bring along for targets such as this one.
+fn linker() -> Result<PathBuf> {
+    let folder = workspace::rustc(["--print", "target-libdir"]).read()?;
+    let linker = Path::new(&folder).with_file_name("bin").join("rust-lld");
+    ensure!(
+        linker.is_file(),
+        "the toolchain that runs cargo has no linker for the target ({} is missing); \
+         toolchains installed by rustup have it",
+        linker.display()
+    );
+    Ok(linker)
 }
 
-/// Version of the newest source under /usr/src that has the library.
-fn source_version() -> Option<String> {
-    let version = compiler_version().ok()?;
-    let library = format!("/usr/src/rustc-{version}/library/core/src/lib.rs");
-    std::path::Path::new(&library).is_file().then_some(version)
+/// The version of both packages, if they are installed and agree.
+fn installed_pair() -> Option<String> {
+    let [compiler, sources] = PACKAGES.map(apt::installed_version);
+    compiler.filter(|version| sources.as_ref() == Some(version))
 }
 
-/// The linker that comes with the rustup toolchain.
-fn rust_lld() -> Result<String> {
-    let sysroot = output(Command::new("rustc").args(["--print", "sysroot"]))?;
-    let host = output(Command::new("rustc").args(["--print", "host-tuple"]))?;
-    let path = format!("{}/lib/rustlib/{}/bin/rust-lld", sysroot.trim(), host.trim());
-    if std::path::Path::new(&path).is_file() {
-        Ok(path)
-    } else {
-        bail!("the toolchain has no rust-lld at {path}")
+/// Whether Debian's compiler is one that can compile this workspace.
+fn expect_new_enough(version: &str) -> Result<()> {
+    let minor = |version: &str| -> Option<u32> { version.split('.').nth(1)?.parse().ok() };
+    let needed = env!("CARGO_PKG_RUST_VERSION");
+    ensure!(
+        minor(version) >= minor(needed),
+        "Debian's compiler here is {version}; this workspace needs Rust {needed}"
+    );
+    Ok(())
+}
+
+/// Both ways are closed: why, and what opens one.
+fn neither(rustup: &anyhow::Error, debian: &anyhow::Error) -> anyhow::Error {
+    anyhow::anyhow!(
+        "no compiler for {TARGET} is to be had here.\n\
+         rustup: {rustup:#}\n\
+         Debian: {debian:#}\n\
+         To mend it, run `rustup target add {TARGET}` on a machine that reaches rustup's server, or \
+         install Debian's packages {} and {} in one version. \
+         All that needs no target: `cargo xtask test --skip-target`.",
+        PACKAGES[0],
+        PACKAGES[1]
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::expect_new_enough;
+
+    #[test]
+    fn an_old_compiler_is_refused_before_it_is_downloaded() {
+        assert!(expect_new_enough("1.96.0+dfsg1-1~deb12u2").is_ok());
+        assert!(expect_new_enough("1.85.0+dfsg3-1~deb12u3").is_err());
+        assert!(expect_new_enough("unheard of").is_err());
     }
 }

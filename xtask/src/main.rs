@@ -1,41 +1,48 @@
-//! `cargo xtask`: everything a script would do, in Rust.
+//! `cargo xtask …`: everything about the project that a script would do.
+//!
+//! - `test`: installs what is missing, runs every test, compiles core for the target and proves
+//!   there that the tick cannot panic.
+//! - `instructions`: instruction counts per call of each algorithm, repeatable to the last digit.
+//!
+//! Progress goes to stderr, results to stdout. Exit status: 0 all well, 1 something failed and was
+//! named, 2 bad usage.
 
+mod apt;
 mod arm_toolchain;
+mod image;
 mod instructions;
-mod panic_free;
-mod shell;
+mod step;
 mod test;
+mod workspace;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
-#[derive(Debug, Parser)]
-#[command(name = "cargo xtask")]
-struct Cli {
+/// Chores of the surefoot workspace.
+#[derive(Parser)]
+#[command(name = "cargo xtask", version)]
+struct Arguments {
     #[command(subcommand)]
-    command: Task,
+    chore: Chore,
 }
 
-#[derive(Debug, Subcommand)]
-enum Task {
-    /// Install what is missing, then build and test everything
-    Test,
-    /// Build core for thumbv7em-none-eabihf and look for panicking paths in its tick
-    Target,
-    /// Count instructions per call of each algorithm, with callgrind
+#[derive(Subcommand)]
+enum Chore {
+    /// Run all tests, compile core for the target, and prove that the tick cannot panic there.
+    Test(test::Options),
+    /// Count the instructions of one call of each algorithm, by callgrind.
     Instructions(instructions::Options),
 }
 
 fn main() -> ExitCode {
-    let result = match Cli::parse().command {
-        Task::Test => test::test(),
-        Task::Target => panic_free::target(),
-        Task::Instructions(options) => instructions::instructions(&options),
+    let result = match Arguments::parse().chore {
+        Chore::Test(options) => test::run(&options),
+        Chore::Instructions(options) => instructions::run(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("xtask: {error:#}");
+            eprintln!("error: {error:#}");
             ExitCode::FAILURE
         }
     }

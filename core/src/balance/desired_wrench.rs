@@ -45,9 +45,8 @@ pub fn desired_acceleration<T: Real>(
 
     let e_p = position - reference.position;
     let e_p_dot = p_dot - reference.velocity;
-    let x_c = reference.acceleration
-        - gains.velocity.product(e_p_dot)
-        - gains.position.product(e_p);
+    let x_c =
+        reference.acceleration - gains.velocity.product(e_p_dot) - gains.position.product(e_p);
 
     let q_d = unit(reference.orientation).ok_or(Fault::NotUnit(Input::Reference))?;
     let q_e = orientation_error(central.orientation, q_d);
@@ -58,10 +57,7 @@ pub fn desired_acceleration<T: Real>(
         - gains.orientation.product(q_e.v);
 
     Ok(DesiredAcceleration {
-        x: Twist {
-            linear: r.tr_mul(&(x_c - omega.cross(&p_dot))),
-            angular: r.tr_mul(&x_r),
-        },
+        x: Twist { linear: r.tr_mul(&(x_c - omega.cross(&p_dot))), angular: r.tr_mul(&x_r) },
         position_error: e_p,
         orientation_error: q_e,
     })

@@ -72,7 +72,7 @@ impl<T: Real> LegJacobian<T> {
                 let factor = row[k] * inverse;
                 row[k] = factor;
                 for j in k + 1..LEG {
-                    row[j] = row[j] - factor * pivot_row[j];
+                    row[j] -= factor * pivot_row[j];
                 }
             }
         }

@@ -36,7 +36,5 @@ pub use leg_kinematics::{CentralBody, LegKinematics, central_body, leg_kinematic
 pub use robot::LeggedRobot;
 pub use state::{Reference, RobotState};
 pub use tick::{Command, tick};
-pub use workspace_dynamics::{
-    WorkspaceDynamics, big_base, fixed_foot_dynamics, fixed_foot_wrench,
-};
+pub use workspace_dynamics::{WorkspaceDynamics, big_base, fixed_foot_dynamics, fixed_foot_wrench};
 pub use wrench_distribution::{FootWrenches, wrench_distribution};

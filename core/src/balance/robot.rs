@@ -75,17 +75,14 @@ impl<const LEGS: usize> LeggedRobot<f64, LEGS> {
     }
 }
 
-const fn assemble<
-    T: Copy,
-    const LEGS: usize,
-    const N: usize,
-    const NQ: usize,
-    const NV: usize,
->(
+const fn assemble<T: Copy, const LEGS: usize, const N: usize, const NQ: usize, const NV: usize>(
     tree: &Tree<T, N, NQ, NV>,
     reach: T,
 ) -> LeggedRobot<T, LEGS> {
-    assert!(LEGS > 0 && N == 1 + LEG * LEGS, "a legged robot is a central body and six links a leg");
+    assert!(
+        LEGS > 0 && N == 1 + LEG * LEGS,
+        "a legged robot is a central body and six links a leg"
+    );
     assert!(
         matches!(tree.nodes[0].kind, JointKind::Floating),
         "the first link of a legged robot is its floating central body"

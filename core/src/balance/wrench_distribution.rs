@@ -37,8 +37,7 @@ pub fn wrench_distribution<T: Real, const LEGS: usize>(
     legs: &[LegKinematics<T>; LEGS],
 ) -> Option<FootWrenches<T, LEGS>> {
     let share = T::one() / T::of(LEGS as f64);
-    let center =
-        legs.iter().fold(Vector3::zeros(), |sum, leg| sum + leg.foot.position) * share;
+    let center = legs.iter().fold(Vector3::zeros(), |sum, leg| sum + leg.foot.position) * share;
     // (1)
     let s = legs.iter().fold(SymmetricMatrix3::scalar(T::of(LEGS as f64)), |s, leg| {
         let d = leg.foot.position - center;

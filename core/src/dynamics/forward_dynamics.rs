@@ -109,10 +109,9 @@ pub fn forward_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
     let mut a = [Twist::zero(); N];
     for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate() {
         let arrived = match node.inboard.and_then(|i| a.get(i)) {
-            None => Twist {
-                linear: pose.rotation.outboard(-tree.gravity),
-                angular: Vector3::zeros(),
-            },
+            None => {
+                Twist { linear: pose.rotation.outboard(-tree.gravity), angular: Vector3::zeros() }
+            }
             Some(inboard) => {
                 let at_joint = if pose.is_translated {
                     inboard.linear + inboard.angular.cross(&pose.translation)
@@ -147,8 +146,7 @@ pub fn forward_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
                 store(&mut result, node, beta_dot);
             }
             _ => {
-                let motion =
-                    JointMotion::new(node, &joint_poses.positions, &own(node, velocities));
+                let motion = JointMotion::new(node, &joint_poses.positions, &own(node, velocities));
                 let block = Block::new(&p[k], &motion)
                     .ok_or(DynamicsFault::SingularInertia { joint: k })?;
                 let wrench = p[k].product(acceleration) + z[k];
@@ -280,7 +278,7 @@ fn project_block<T: Real, const N: usize, const NQ: usize, const NV: usize>(
         for j in 0..i {
             let l = block.lower[i][j];
             w[i] -= w[j] * l;
-            excess[i] = excess[i] - l * excess[j];
+            excess[i] -= l * excess[j];
         }
         projected = projected.minus_outer(w[i], block.inverse[i]);
         force += w[i] * (block.inverse[i] * excess[i]);
@@ -333,15 +331,17 @@ impl<T: Real> Block<T> {
     /// `x ← D⁻¹ x`.
     #[inline]
     fn solve(&self, x: &mut [T; 6]) {
-        for i in 0..self.degrees_of_freedom {
+        // Said again for the compiler, which then leaves out the checks of bounds.
+        let degrees_of_freedom = self.degrees_of_freedom.min(6);
+        for i in 0..degrees_of_freedom {
             for j in 0..i {
-                x[i] = x[i] - self.lower[i][j] * x[j];
+                x[i] -= self.lower[i][j] * x[j];
             }
         }
-        for i in (0..self.degrees_of_freedom).rev() {
+        for i in (0..degrees_of_freedom).rev() {
             x[i] *= self.inverse[i];
-            for j in i + 1..self.degrees_of_freedom {
-                x[i] = x[i] - self.lower[j][i] * x[j];
+            for j in i + 1..degrees_of_freedom {
+                x[i] -= self.lower[j][i] * x[j];
             }
         }
     }

@@ -207,10 +207,7 @@ fn transport<T: Real>(pose: &JointPose<T>, twist: &Twist<T>) -> Twist<T> {
     } else {
         twist.linear
     };
-    Twist {
-        linear: pose.rotation.outboard(linear),
-        angular: pose.rotation.outboard(twist.angular),
-    }
+    Twist { linear: pose.rotation.outboard(linear), angular: pose.rotation.outboard(twist.angular) }
 }
 
 /// Adds `H β` to `V` and `H β̇ + ad(V) H β` to `V̇`, where `H` is a turn about axis `I`:

@@ -59,8 +59,7 @@ pub fn inverse_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
 
     for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate() {
         let from = inboard(node, &motions).unwrap_or(&base);
-        let motion =
-            step(node, pose, from, &joint_poses.positions, velocities, accelerations);
+        let motion = step(node, pose, from, &joint_poses.positions, velocities, accelerations);
         wrenches[k] = inertial_wrench(node, &motion);
         motions[k] = motion;
     }

@@ -28,11 +28,7 @@ pub(super) struct JointMotion<T> {
 impl<T: Real> JointMotion<T> {
     /// Of any joint, in the general form (revolute and prismatic joints have shorter ways).
     #[inline]
-    pub fn new<const NQ: usize>(
-        node: &Node<T>,
-        positions: &[T; NQ],
-        beta: &[T; 6],
-    ) -> Self {
+    pub fn new<const NQ: usize>(node: &Node<T>, positions: &[T; NQ], beta: &[T; 6]) -> Self {
         let mut map = [Twist::zero(); 6];
         let mut map_rate = Twist::zero();
         let one = T::one();

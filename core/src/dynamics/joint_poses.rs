@@ -53,10 +53,7 @@ pub fn joint_poses<T: Real, const N: usize, const NQ: usize, const NV: usize>(
 
 /// The joint's own coordinates, padded with zeros.
 #[inline(always)]
-pub(super) fn coordinates<T: Real, const NQ: usize>(
-    node: &Node<T>,
-    positions: &[T; NQ],
-) -> [T; 7] {
+pub(super) fn coordinates<T: Real, const NQ: usize>(node: &Node<T>, positions: &[T; NQ]) -> [T; 7] {
     let mut theta = [T::zero(); 7];
     let own = positions.iter().skip(node.position_start).take(node.kind.coordinates());
     for (t, x) in theta.iter_mut().zip(own) {
@@ -76,11 +73,8 @@ fn joint_pose<T: Real, const NQ: usize>(
     node: &Node<T>,
     positions: &[T; NQ],
 ) -> Option<JointPose<T>> {
-    let fixed = |rotation| JointPose {
-        rotation,
-        translation: node.offset,
-        is_translated: node.is_offset,
-    };
+    let fixed =
+        |rotation| JointPose { rotation, translation: node.offset, is_translated: node.is_offset };
     Some(match &node.kind {
         JointKind::Fixed => fixed(turned(node, Rotation::Identity)),
         JointKind::Revolute(axis) => {

@@ -23,11 +23,7 @@ pub(super) const fn scale(a: V, factor: f64) -> V {
 }
 
 pub(super) const fn transpose(m: M) -> M {
-    [
-        [m[0][0], m[1][0], m[2][0]],
-        [m[0][1], m[1][1], m[2][1]],
-        [m[0][2], m[1][2], m[2][2]],
-    ]
+    [[m[0][0], m[1][0], m[2][0]], [m[0][1], m[1][1], m[2][1]], [m[0][2], m[1][2], m[2][2]]]
 }
 
 pub(super) const fn times(m: M, v: V) -> V {

@@ -79,12 +79,7 @@ impl Link {
 
     /// The body with a full inertia tensor `[xx, yy, zz, yz, zx, xy]` about its centre of mass, in
     /// the axes of the body frame.
-    pub const fn body_with_products(
-        self,
-        mass: f64,
-        inertia: [f64; 6],
-        center: [f64; 3],
-    ) -> Self {
+    pub const fn body_with_products(self, mass: f64, inertia: [f64; 6], center: [f64; 3]) -> Self {
         Self { mass, inertia, center, ..self }
     }
 

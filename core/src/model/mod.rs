@@ -13,9 +13,9 @@ mod link;
 pub mod robots;
 mod tree;
 
+pub(crate) use compile_time::square_root;
 pub use general_joint::{GeneralJoint, GeneralMotion};
 pub use joint::{Axis, JointKind};
 pub use link::Link;
-pub(crate) use compile_time::square_root;
-pub(crate) use tree::{InertiaShape, Node};
 pub use tree::Tree;
+pub(crate) use tree::{InertiaShape, Node};

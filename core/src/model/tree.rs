@@ -303,8 +303,7 @@ const fn node(
         "a floating joint carries a body relative to the inertial frame: its inboard link is 0"
     );
     let to_inboard = transpose(inboard_frame);
-    let offset =
-        if floating { [0.0; 3] } else { times(to_inboard, minus(origin, inboard_origin)) };
+    let offset = if floating { [0.0; 3] } else { times(to_inboard, minus(origin, inboard_origin)) };
     let home_rotation = if floating { IDENTITY } else { product(to_inboard, frame) };
     let to_frame = transpose(frame);
     let body_rotation = product(to_frame, matrix_of_quaternion(link.orientation));
@@ -415,8 +414,15 @@ const fn matrix_f32(m: &Matrix3<f64>) -> Matrix3<f32> {
     // nalgebra stores columns.
     let [x, y, z] = m.data.0;
     Matrix3::new(
-        x[0] as f32, y[0] as f32, z[0] as f32, x[1] as f32, y[1] as f32, z[1] as f32, x[2] as f32,
-        y[2] as f32, z[2] as f32,
+        x[0] as f32,
+        y[0] as f32,
+        z[0] as f32,
+        x[1] as f32,
+        y[1] as f32,
+        z[1] as f32,
+        x[2] as f32,
+        y[2] as f32,
+        z[2] as f32,
     )
 }
 

@@ -25,8 +25,8 @@ const PI_2_LOW: f64 = 2.022_266_248_795_950_6e-21;
 
 // π/2 in three parts (twice Cephes' DP1, DP2, DP3, which sum to π/4).
 const PI_2_HIGH_F32: f32 = 1.570_312_5;
-const PI_2_MIDDLE_F32: f32 = 4.837_512_969_970_703e-4;
-const PI_2_LOW_F32: f32 = 7.549_789_954_891_882e-8;
+const PI_2_MIDDLE_F32: f32 = 4.837_513e-4;
+const PI_2_LOW_F32: f32 = 7.549_79e-8;
 
 /// Adding and subtracting 1.5 · 2⁵² rounds to an integer, whose low bits stay in the sum's mantissa.
 const ROUND_F64: f64 = 6_755_399_441_055_744.0;
@@ -45,22 +45,20 @@ pub(super) fn f64(x: f64) -> (f64, f64) {
     // (1)
     let r = ((x - k * PI_2_HIGH) - k * PI_2_MIDDLE) - k * PI_2_LOW;
     let z = r * r;
-    let sine = r
-        + r * z
-            * (-1.666_666_666_666_663_2e-1
-                + z * (8.333_333_333_322_49e-3
-                    + z * (-1.984_126_982_985_795e-4
-                        + z * (2.755_731_370_707_006_8e-6
-                            + z * (-2.505_076_025_340_686_3e-8
-                                + z * 1.589_690_995_211_55e-10)))));
+    let sine = r + r
+        * z
+        * (-1.666_666_666_666_663_2e-1
+            + z * (8.333_333_333_322_49e-3
+                + z * (-1.984_126_982_985_795e-4
+                    + z * (2.755_731_370_707_006_8e-6
+                        + z * (-2.505_076_025_340_686_3e-8 + z * 1.589_690_995_211_55e-10)))));
     let cosine = 1.0 - 0.5 * z
         + z * z
             * (4.166_666_666_666_66e-2
                 + z * (-1.388_888_888_887_411e-3
                     + z * (2.480_158_728_947_673e-5
                         + z * (-2.755_731_435_139_066_3e-7
-                            + z * (2.087_572_321_298_175e-9
-                                + z * -1.135_964_755_778_819_5e-11)))));
+                            + z * (2.087_572_321_298_175e-9 + z * -1.135_964_755_778_819_5e-11)))));
     let (a, b) = if quadrant & 1 == 0 { (sine, cosine) } else { (cosine, sine) };
     (
         f64::from_bits(a.to_bits() ^ ((quadrant & 2) << 62)),
@@ -80,10 +78,9 @@ pub(super) fn f32(x: f32) -> (f32, f32) {
     // (1)
     let r = ((x - k * PI_2_HIGH_F32) - k * PI_2_MIDDLE_F32) - k * PI_2_LOW_F32;
     let z = r * r;
-    let sine =
-        r + r * z * (-1.666_665_5e-1 + z * (8.332_161e-3 + z * -1.951_529_6e-4));
-    let cosine = 1.0 - 0.5 * z
-        + z * z * (4.166_664_6e-2 + z * (-1.388_731_6e-3 + z * 2.443_315_7e-5));
+    let sine = r + r * z * (-1.666_665_5e-1 + z * (8.332_161e-3 + z * -1.951_529_6e-4));
+    let cosine =
+        1.0 - 0.5 * z + z * z * (4.166_664_6e-2 + z * (-1.388_731_6e-3 + z * 2.443_315_7e-5));
     let (a, b) = if quadrant & 1 == 0 { (sine, cosine) } else { (cosine, sine) };
     (
         f32::from_bits(a.to_bits() ^ ((quadrant & 2) << 30)),

@@ -40,7 +40,12 @@ impl<T: Real> ArticulatedInertia<T> {
     /// The image of a turn at unit rate about axis `I`: column `3 + I`.
     #[inline(always)]
     pub(crate) fn angular_column<const I: usize>(&self) -> Wrench<T> {
-        Wrench { force: self.coupling.column(I).into_owned(), torque: self.angular.column::<I>() }
+        let c = &self.coupling;
+        Wrench {
+            // `Matrix3::column(I).into_owned()` has a panicking path.
+            force: Vector3::new(c[(0, I)], c[(1, I)], c[(2, I)]),
+            torque: self.angular.column::<I>(),
+        }
     }
 
     /// The image of unit velocity along axis `I`: column `I`.

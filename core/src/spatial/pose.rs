@@ -47,10 +47,7 @@ impl<T: Real> Pose<T> {
     #[inline]
     pub fn adjoint(&self, twist: Twist<T>) -> Twist<T> {
         let angular = self.rotation * twist.angular;
-        Twist {
-            linear: self.rotation * twist.linear + self.position.cross(&angular),
-            angular,
-        }
+        Twist { linear: self.rotation * twist.linear + self.position.cross(&angular), angular }
     }
 
     /// `Ad_g⁻ᵀ F` (A.7): the wrench of the second frame, expressed and taken at the first,
@@ -58,9 +55,6 @@ impl<T: Real> Pose<T> {
     #[inline]
     pub fn carry_wrench(&self, wrench: Wrench<T>) -> Wrench<T> {
         let force = self.rotation * wrench.force;
-        Wrench {
-            force,
-            torque: self.rotation * wrench.torque + self.position.cross(&force),
-        }
+        Wrench { force, torque: self.rotation * wrench.torque + self.position.cross(&force) }
     }
 }

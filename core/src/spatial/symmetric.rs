@@ -138,13 +138,10 @@ impl<T: Real> SymmetricMatrix3<T> {
                 o.x * o.y - d.z * o.z,
             ),
         };
-        let determinant =
-            d.x * cofactor.diagonal.x + o.z * cofactor.off_diagonal.z + o.y * cofactor.off_diagonal.y;
-        if determinant > T::zero() {
-            Some(cofactor.scaled(T::one() / determinant))
-        } else {
-            None
-        }
+        let determinant = d.x * cofactor.diagonal.x
+            + o.z * cofactor.off_diagonal.z
+            + o.y * cofactor.off_diagonal.y;
+        if determinant > T::zero() { Some(cofactor.scaled(T::one() / determinant)) } else { None }
     }
 }
 

@@ -30,11 +30,7 @@ pub fn write_charts(
         .collect()
 }
 
-fn series(
-    samples: &[Sample],
-    name: impl Into<String>,
-    value: impl Fn(&Sample) -> f64,
-) -> Series {
+fn series(samples: &[Sample], name: impl Into<String>, value: impl Fn(&Sample) -> f64) -> Series {
     Series { name: name.into(), values: samples.iter().map(value).collect() }
 }
 
@@ -56,9 +52,8 @@ fn body(samples: &[Sample]) -> Vec<Panel> {
 }
 
 fn errors(samples: &[Sample]) -> Vec<Panel> {
-    let position = (0..3)
-        .map(|i| series(samples, AXES[i], move |s| 1e3 * s.position_error[i]))
-        .collect();
+    let position =
+        (0..3).map(|i| series(samples, AXES[i], move |s| 1e3 * s.position_error[i])).collect();
     let orientation = (0..3)
         .map(|i| {
             series(samples, format!("about {}", AXES[i]), move |s| {
@@ -94,8 +89,7 @@ fn joints(samples: &[Sample]) -> Vec<Panel> {
 }
 
 fn forces(samples: &[Sample]) -> Vec<Panel> {
-    let force =
-        (0..3).map(|i| series(samples, AXES[i], move |s| s.desired_wrench[i])).collect();
+    let force = (0..3).map(|i| series(samples, AXES[i], move |s| s.desired_wrench[i])).collect();
     let torque = (0..3)
         .map(|i| series(samples, format!("about {}", AXES[i]), move |s| s.desired_wrench[3 + i]))
         .collect();

@@ -52,18 +52,11 @@ const TITLE_HEIGHT: u32 = 40;
 ///
 /// # Errors
 /// [`ChartError`] if the file cannot be written.
-pub fn draw(
-    path: &Path,
-    title: &str,
-    times: &[f64],
-    panels: &[Panel],
-) -> Result<(), ChartError> {
+pub fn draw(path: &Path, title: &str, times: &[f64], panels: &[Panel]) -> Result<(), ChartError> {
     let height = TITLE_HEIGHT + PANEL_HEIGHT * panels.len() as u32;
     let root = SVGBackend::new(path, (WIDTH, height)).into_drawing_area();
-    paint(&root, title, times, panels).map_err(|error| ChartError {
-        path: path.display().to_string(),
-        reason: error.to_string(),
-    })
+    paint(&root, title, times, panels)
+        .map_err(|error| ChartError { path: path.display().to_string(), reason: error.to_string() })
 }
 
 type Painted = Result<(), Box<dyn std::error::Error>>;
@@ -85,11 +78,7 @@ fn paint(
     Ok(())
 }
 
-fn axes(
-    area: &DrawingArea<SVGBackend<'_>, Shift>,
-    times: &[f64],
-    panel: &Panel,
-) -> Painted {
+fn axes(area: &DrawingArea<SVGBackend<'_>, Shift>, times: &[f64], panel: &Panel) -> Painted {
     let end = times.last().copied().unwrap_or(1.0).max(1e-9);
     let (low, high) = range(panel);
     let mut chart = ChartBuilder::on(area)

@@ -63,9 +63,8 @@ pub fn controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
 impl<T: Real> HostController<T> {
     /// With a scene's gains, form and set point.
     pub fn new(robot: &'static LeggedRobot<T, 2>, scene: &Scene) -> Self {
-        let diagonal = |[x, y, z]: [f64; 3]| {
-            SymmetricMatrix3::diagonal(T::of(x), T::of(y), T::of(z))
-        };
+        let diagonal =
+            |[x, y, z]: [f64; 3]| SymmetricMatrix3::diagonal(T::of(x), T::of(y), T::of(z));
         let settings = &scene.controller;
         let mut controller = balance::Controller::new(robot);
         controller.gains = Gains {

@@ -63,9 +63,7 @@ pub fn run(scene: &Scene, controller: &mut dyn Controller, progress: &mut dyn Fn
 fn plant(scene: &Scene) -> Result<Box<dyn Plant>, StepFailure> {
     let start = scene.initial.state();
     Ok(match &scene.feet {
-        Feet::Floor { outline, floor } => {
-            Box::new(OnFloor::new(start, *floor, &outline.sole()))
-        }
+        Feet::Floor { outline, floor } => Box::new(OnFloor::new(start, *floor, &outline.sole())),
         Feet::Welded {} => Box::new(Welded::new(start)?),
     })
 }

@@ -71,9 +71,8 @@ impl ContactPoint {
             state = state.next(conditions);
         }
 
-        let sliding = || {
-            v_t * (-floor.dynamic_friction * normal / speed.max(floor.zero_velocity_threshold))
-        };
+        let sliding =
+            || v_t * (-floor.dynamic_friction * normal / speed.max(floor.zero_velocity_threshold));
         let mut anchor = self.anchor;
         let (normal, tangential) = match state {
             ContactState::Free | ContactState::NegativeNormalForce => (0.0, Vector2::zeros()),
@@ -135,8 +134,8 @@ mod tests {
     #[test]
     fn a_slow_point_sticks_where_it_is() {
         let p = Vector3::new(0.3, 0.1, -1e-3);
-        let slow = at(ContactState::Sliding, [0.0; 2])
-            .evaluate(&FLOOR, p, Vector3::new(5e-4, 0.0, 0.0));
+        let slow =
+            at(ContactState::Sliding, [0.0; 2]).evaluate(&FLOOR, p, Vector3::new(5e-4, 0.0, 0.0));
         assert_eq!(slow.point.state, ContactState::SlidingToSticking);
         assert_eq!(slow.point.anchor, Vector2::new(0.3, 0.1));
         assert!((slow.force.x + 0.3 * 75.0 * 0.5).abs() < 1e-9);
@@ -148,8 +147,8 @@ mod tests {
     #[test]
     fn a_point_that_turned_back_sticks() {
         let p = Vector3::new(0.3, 0.1, -1e-3);
-        let sliding = at(ContactState::Sliding, [0.0; 2])
-            .evaluate(&FLOOR, p, Vector3::new(4e-3, 0.0, 0.0));
+        let sliding =
+            at(ContactState::Sliding, [0.0; 2]).evaluate(&FLOOR, p, Vector3::new(4e-3, 0.0, 0.0));
         assert_eq!(sliding.point.state, ContactState::Sliding);
         let onward = sliding.point.evaluate(&FLOOR, p, Vector3::new(0.0, 3e-3, 0.0));
         assert_eq!(onward.point.state, ContactState::Sliding);

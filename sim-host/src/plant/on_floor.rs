@@ -6,9 +6,7 @@ use super::{
 };
 use crate::contact::{ContactPoint, ContactState, Floor, PointForce};
 use nalgebra::Vector3;
-use surefoot::dynamics::{
-    JointPoses, body_poses, body_velocities, forward_dynamics, joint_poses,
-};
+use surefoot::dynamics::{JointPoses, body_poses, body_velocities, forward_dynamics, joint_poses};
 use surefoot::model::robots::biped::{FEET, SoleOutline, TREE};
 use surefoot::spatial::{Pose, Twist, Wrench};
 
@@ -61,8 +59,7 @@ impl OnFloor {
                 let PointForce { force, point, spring_energy } =
                     self.points[foot][corner].evaluate(&self.floor, position, velocity);
                 let in_body = pose.rotation.tr_mul(&force);
-                touch.wrenches[body] +=
-                    Wrench { force: in_body, torque: arm.cross(&in_body) };
+                touch.wrenches[body] += Wrench { force: in_body, torque: arm.cross(&in_body) };
                 touch.vertical[foot] += force.z;
                 touch.points[foot][corner] = point;
                 touch.spring_energy += spring_energy;
@@ -88,9 +85,7 @@ pub(super) fn energies(
     let potential = poses
         .iter()
         .enumerate()
-        .map(|(k, pose)| {
-            -TREE.body_mass(k).unwrap_or(0.0) * TREE.gravity().dot(&pose.position)
-        })
+        .map(|(k, pose)| -TREE.body_mass(k).unwrap_or(0.0) * TREE.gravity().dot(&pose.position))
         .sum();
     (kinetic, potential)
 }
@@ -103,10 +98,8 @@ impl Plant for OnFloor {
     fn step(&mut self, step_s: f64, torques: &[f64; 12]) -> Result<(), StepFailure> {
         let PlantState { positions, velocities } = self.state;
         let relative = joint_poses(&TREE, &positions)?;
-        let touch = self.touch(
-            &body_poses(&TREE, &relative),
-            &body_velocities(&TREE, &relative, &velocities),
-        );
+        let touch = self
+            .touch(&body_poses(&TREE, &relative), &body_velocities(&TREE, &relative, &velocities));
         let accelerations = forward_dynamics(
             &TREE,
             &relative,
@@ -119,8 +112,7 @@ impl Plant for OnFloor {
             *v += step_s * a;
         }
         check_velocities(&next)?;
-        self.state =
-            PlantState { positions: retract(&positions, &next, step_s), velocities: next };
+        self.state = PlantState { positions: retract(&positions, &next, step_s), velocities: next };
         self.points = touch.points;
         Ok(())
     }
@@ -161,8 +153,7 @@ impl Plant for OnFloor {
         let damping: f64 = self.corners[0]
             .iter()
             .map(|c| {
-                self.floor.normal_damping * c.y * c.y
-                    + self.floor.tangential_damping * c.z * c.z
+                self.floor.normal_damping * c.y * c.y + self.floor.tangential_damping * c.z * c.z
             })
             .sum();
         let roll = 2.0 * xx / damping;

@@ -84,8 +84,7 @@ impl Plant for Welded {
             let on_foot = lambda.fixed_rows::<3>(6 * foot);
             self.vertical[foot] = (poses[body].rotation * on_foot).z;
         }
-        self.state =
-            PlantState { positions: retract(&positions, &next, step_s), velocities: next };
+        self.state = PlantState { positions: retract(&positions, &next, step_s), velocities: next };
         Ok(())
     }
 

@@ -13,10 +13,7 @@ pub struct BuiltIn {
 
 /// All built-in scenes.
 pub const BUILT_IN: [BuiltIn; 2] = [
-    BuiltIn {
-        name: "experiment-1",
-        text: include_str!("../../scenes/experiment-1.toml"),
-    },
+    BuiltIn { name: "experiment-1", text: include_str!("../../scenes/experiment-1.toml") },
     BuiltIn {
         name: "experiment-1-welded",
         text: include_str!("../../scenes/experiment-1-welded.toml"),

@@ -9,7 +9,7 @@ use surefoot::spatial::{Pose, Wrench};
 use surefoot_tests::quadruped;
 use surefoot_tests::random_trees::{random, symmetric};
 
-use super::workspace::{random_state, BIPED};
+use super::workspace::{BIPED, random_state};
 
 /// Columns `Ad^{-T}` of a pose, by carrying unit wrenches.
 fn wrench_map(pose: &Pose<f64>) -> SMatrix<f64, 6, 6> {
@@ -79,7 +79,12 @@ fn torques_do_the_work_of_the_desired_wrench() {
             });
             let at = twist.linear + twist.angular.cross(&o);
             let v = SVector::from([
-                -at.x, -at.y, -at.z, -twist.angular.x, -twist.angular.y, -twist.angular.z,
+                -at.x,
+                -at.y,
+                -at.z,
+                -twist.angular.x,
+                -twist.angular.y,
+                -twist.angular.z,
             ]);
             let rates = jacobian.lu().solve(&v).expect("a regular leg");
             let torques = joint_torques(leg, *foot);

@@ -181,10 +181,14 @@ fn random_states_never_give_bad_numbers() {
         let scale = 10f64.powf(4.0 * symmetric::<1>(&mut rng)[0]);
         let state = RobotState {
             position: Vector3::from(symmetric(&mut rng)) * scale,
-            orientation: Quaternion::from_rotation_vector(Vector3::from(symmetric(&mut rng)) * scale),
+            orientation: Quaternion::from_rotation_vector(
+                Vector3::from(symmetric(&mut rng)) * scale,
+            ),
             velocity: Twist::from_array(symmetric(&mut rng)) * scale,
-            joint_angles: [symmetric(&mut rng), symmetric(&mut rng)].map(|l: [f64; 6]| l.map(|x| x * scale)),
-            joint_rates: [symmetric(&mut rng), symmetric(&mut rng)].map(|l: [f64; 6]| l.map(|x| x * scale)),
+            joint_angles: [symmetric(&mut rng), symmetric(&mut rng)]
+                .map(|l: [f64; 6]| l.map(|x| x * scale)),
+            joint_rates: [symmetric(&mut rng), symmetric(&mut rng)]
+                .map(|l: [f64; 6]| l.map(|x| x * scale)),
         };
         let (_, reference) = standing();
         match tick(&Controller::new(&ROBOT), &state, &reference) {

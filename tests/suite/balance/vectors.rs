@@ -63,10 +63,7 @@ fn state<T: Real>(case: &Value) -> RobotState<T, 2> {
 
 fn reference<T: Real>(case: &Value) -> Reference<T> {
     let set = &case["setpoint"];
-    Reference::at_rest(
-        vector(&set["p"]),
-        Quaternion::from_array(array::<4>(&set["q"]).map(T::of)),
-    )
+    Reference::at_rest(vector(&set["p"]), Quaternion::from_array(array::<4>(&set["q"]).map(T::of)))
 }
 
 fn doubles<T: Real>(numbers: &[T]) -> Vec<f64> {

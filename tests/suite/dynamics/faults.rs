@@ -15,7 +15,8 @@ fn positions_that_are_no_numbers() {
             q[index] = bad;
             let fault = joint_poses(&biped::TREE, &q).expect_err("not finite");
             assert_eq!(fault, DynamicsFault::PositionNotFinite { index });
-            let fault = joint_poses(&biped::TREE_F32, &q.map(|x| x as f32)).expect_err("not finite");
+            let fault =
+                joint_poses(&biped::TREE_F32, &q.map(|x| x as f32)).expect_err("not finite");
             assert_eq!(fault, DynamicsFault::PositionNotFinite { index });
         }
     }
@@ -76,9 +77,11 @@ fn huge_angles() {
 /// A joint about the axis of a needle, which has no inertia about it.
 #[test]
 fn a_joint_with_nothing_to_move() {
-    let tree: Tree<f64, 1, 1, 1> = Tree::new([
-        Link::revolute(0, [1.0, 0.0, 0.0], [0.0; 3]).body(1.0, [0.0, 0.1, 0.1], [0.5, 0.0, 0.0]),
-    ]);
+    let tree: Tree<f64, 1, 1, 1> = Tree::new([Link::revolute(0, [1.0, 0.0, 0.0], [0.0; 3]).body(
+        1.0,
+        [0.0, 0.1, 0.1],
+        [0.5, 0.0, 0.0],
+    )]);
     let poses = joint_poses(&tree, &[0.3]).expect("finite");
     let fault = forward_dynamics(&tree, &poses, &[0.0], &[1.0], None).expect_err("no inertia");
     assert_eq!(fault, DynamicsFault::SingularInertia { joint: 0 });

@@ -138,8 +138,7 @@ fn mass_matrix_rate_less_twice_coriolis_is_skew() {
         let (m1, m2, p1, p2) = (at(-1.0), at(-2.0), at(1.0), at(2.0));
         for i in 0..7 {
             for j in 0..7 {
-                let rate =
-                    (8.0 * (p1[i][j] - m1[i][j]) - (p2[i][j] - m2[i][j])) / (12.0 * h);
+                let rate = (8.0 * (p1[i][j] - m1[i][j]) - (p2[i][j] - m2[i][j])) / (12.0 * h);
                 // coriolis[k] is column k.
                 let sum = 2.0 * rate - 2.0 * (coriolis[j][i] + coriolis[i][j]);
                 assert!(sum.abs() < 1e-10, "{i} {j}: {sum}");

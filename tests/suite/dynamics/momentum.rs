@@ -24,10 +24,9 @@ fn internal_torques_change_no_momentum() {
             let pose = &kinematics.poses[k];
             let (v, a) = (kinematics.velocities[k], kinematics.accelerations[k]);
             let inertia = Matrix3::from_diagonal(&Vector3::from(body.inertia));
-            let force =
-                pose.rotation * (a.linear + v.angular.cross(&v.linear)) * body.mass;
-            let torque = pose.rotation
-                * (inertia * a.angular + v.angular.cross(&(inertia * v.angular)));
+            let force = pose.rotation * (a.linear + v.angular.cross(&v.linear)) * body.mass;
+            let torque =
+                pose.rotation * (inertia * a.angular + v.angular.cross(&(inertia * v.angular)));
             linear += force;
             angular += torque + pose.position.cross(&force);
             scale += force.norm() + torque.norm();

@@ -36,8 +36,7 @@ impl<const NQ: usize, const NV: usize> Motion<'_, NQ, NV> {
 /// Body twist from poses before and after: `(Rᵀ ṗ, (Rᵀ Ṙ)ˇ)`.
 fn difference(before: &Pose<f64>, now: &Pose<f64>, after: &Pose<f64>) -> Twist<f64> {
     let p = (after.position - before.position) / (2.0 * H);
-    let r: Matrix3<f64> =
-        now.rotation.transpose() * (after.rotation - before.rotation) / (2.0 * H);
+    let r: Matrix3<f64> = now.rotation.transpose() * (after.rotation - before.rotation) / (2.0 * H);
     Twist {
         linear: now.rotation.transpose() * p,
         angular: Vector3::new(r.m32 - r.m23, r.m13 - r.m31, r.m21 - r.m12) * 0.5,
@@ -119,9 +118,8 @@ fn check<const NQ: usize, const NV: usize>(
 
     // Power of torques and wrenches = rate of kinetic and potential energy.
     let g = tree.gravity();
-    let rate =
-        (energy(bodies, &after.0, &after.1, g) - energy(bodies, &before.0, &before.1, g))
-            / (2.0 * H);
+    let rate = (energy(bodies, &after.0, &after.1, g) - energy(bodies, &before.0, &before.1, g))
+        / (2.0 * H);
     let power = torques.iter().zip(&motion.v).map(|(t, v)| t * v).sum::<f64>()
         + kinematics.velocities.iter().zip(&applied).map(|(v, f)| v.power(*f)).sum::<f64>();
     errors[3] = relative_error(&[power], &[rate]);

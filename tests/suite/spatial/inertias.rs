@@ -2,8 +2,7 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use surefoot::spatial::{
-    ArticulatedInertia, AxisTurn, Pose, Quaternion, RigidInertia, Rotation, SymmetricMatrix3,
-    Twist,
+    ArticulatedInertia, AxisTurn, Pose, Quaternion, RigidInertia, Rotation, SymmetricMatrix3, Twist,
 };
 use surefoot_tests::random_trees::{random, symmetric};
 

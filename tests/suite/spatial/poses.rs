@@ -1,6 +1,8 @@
 //! Quaternions, poses, adjoints.
 
-use nalgebra::{Isometry3, Quaternion as Theirs, SMatrix, SVector, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{
+    Isometry3, Quaternion as Theirs, SMatrix, SVector, Translation3, UnitQuaternion, Vector3,
+};
 use surefoot::spatial::{AxisTurn, Pose, Quaternion, Rotation, Twist, Wrench};
 use surefoot_tests::random_trees::{random, symmetric};
 

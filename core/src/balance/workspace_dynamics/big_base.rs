@@ -113,11 +113,8 @@ fn heavy_foot<T: Real, const LEGS: usize>(
     let omega = r.tr_mul(&leg.angular_velocities[LEG - 1]);
     let v = r.tr_mul(&leg.last_velocity) + omega.cross(&foot.center);
     // −P (ω × v, 0) at the centre of mass, then taken at the joint.
-    let z = Wrench {
-        force: omega.cross(&v) * (-body.mass * factor),
-        torque: Vector3::zeros(),
-    }
-    .shifted(foot.center);
+    let z = Wrench { force: omega.cross(&v) * (-body.mass * factor), torque: Vector3::zeros() }
+        .shifted(foot.center);
     // The classical acceleration of the joint's point differs from the centre's by ω × (ω × c).
     let centripetal =
         Twist { linear: omega.cross(&omega.cross(&foot.center)), angular: Vector3::zeros() };

@@ -27,9 +27,7 @@ use crate::Real;
 use crate::balance::robot::LEG;
 use crate::balance::{CentralBody, Fault, LegJacobian, LegKinematics, LeggedRobot};
 use crate::model::Node;
-use crate::spatial::{
-    ArticulatedInertia, RigidInertia, Rotation, SymmetricMatrix3, Twist, Wrench,
-};
+use crate::spatial::{ArticulatedInertia, RigidInertia, Rotation, SymmetricMatrix3, Twist, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
 /// The wrench `P_1 X + z_1` on the central body that gives it the acceleration `x` while the feet
@@ -52,13 +50,11 @@ pub fn fixed_foot_wrench<T: Real, const LEGS: usize>(
     let v = central.velocity;
     // Acceleration of the centre of mass less gravity, from the component derivative.
     let a = x.linear + v.angular.cross(&v.linear) - central.gravity;
-    let mut wrench =
-        inertial_wrench(&robot.central, &Matrix3::identity(), v.angular, x.angular, a);
-    for (number, ((links, leg), reach)) in
-        robot.legs.iter().zip(legs).zip(&robot.reach).enumerate()
+    let mut wrench = inertial_wrench(&robot.central, &Matrix3::identity(), v.angular, x.angular, a);
+    for (number, ((links, leg), reach)) in robot.legs.iter().zip(legs).zip(&robot.reach).enumerate()
     {
-        let jacobian = LegJacobian::new(leg, *reach, singularity)
-            .ok_or(Fault::SingularLeg { leg: number })?;
+        let jacobian =
+            LegJacobian::new(leg, *reach, singularity).ok_or(Fault::SingularLeg { leg: number })?;
         wrench += leg_wrench(links, leg, &jacobian, central, x.angular, a);
     }
     Ok(wrench)
@@ -151,11 +147,10 @@ pub fn fixed_foot_dynamics<T: Real, const LEGS: usize>(
 ) -> Result<WorkspaceDynamics<T>, Fault> {
     let bias = fixed_foot_wrench(robot, central, legs, singularity, Twist::zero())?;
     let mut inertia = ArticulatedInertia::from(robot.central.inertia);
-    for (number, ((links, leg), reach)) in
-        robot.legs.iter().zip(legs).zip(&robot.reach).enumerate()
+    for (number, ((links, leg), reach)) in robot.legs.iter().zip(legs).zip(&robot.reach).enumerate()
     {
-        let jacobian = LegJacobian::new(leg, *reach, singularity)
-            .ok_or(Fault::SingularLeg { leg: number })?;
+        let jacobian =
+            LegJacobian::new(leg, *reach, singularity).ok_or(Fault::SingularLeg { leg: number })?;
         inertia = inertia + leg_inertia(links, leg, &jacobian).shifted(leg.origins[LEG - 1]);
     }
     Ok(WorkspaceDynamics { inertia, bias })
@@ -172,10 +167,7 @@ fn leg_inertia<T: Real>(
     let o = leg.origins[LEG - 1];
     let mut s = [Twist::zero(); LEG];
     for k in 0..LEG {
-        s[k] = Twist {
-            linear: leg.axes[k].cross(&(o - leg.origins[k])),
-            angular: leg.axes[k],
-        };
+        s[k] = Twist { linear: leg.axes[k].cross(&(o - leg.origins[k])), angular: leg.axes[k] };
     }
     let mut composite = RigidInertia {
         mass: zero,

@@ -35,8 +35,7 @@ pub(super) fn inertial_wrench<T: Real>(
         return Wrench { force: a * inertia.mass, torque: alpha * inertia.rotational.diagonal.x };
     }
     let (omega_b, alpha_b) = (rotation.tr_mul(&omega), rotation.tr_mul(&alpha));
-    let torque =
-        rotation * (node.rotational_product(alpha_b) + node.gyroscopic_torque(omega_b));
+    let torque = rotation * (node.rotational_product(alpha_b) + node.gyroscopic_torque(omega_b));
     if !node.is_eccentric {
         return Wrench { force: a * inertia.mass, torque };
     }

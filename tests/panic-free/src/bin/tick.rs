@@ -1,0 +1,9 @@
+//! The claim that matters most: a balance tick has no panicking path.
+
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+#[cfg_attr(target_os = "none", cortex_m_rt::entry)]
+fn main() -> ! {
+    panic_free::opaque_tick();
+    panic_free::halt()
+}

@@ -1,0 +1,74 @@
+//! What the images share: inputs that the optimiser cannot see through, and the panic handler whose
+//! presence in a linked image is the finding.
+//!
+//! The images are linked for the target with link-time optimisation and without unreachable
+//! sections. A panicking function, or the handler, that is still there is one which the code under
+//! test can call. `cargo xtask test --only panic-free` builds the images and reads their symbols.
+
+#![cfg_attr(target_os = "none", no_std)]
+
+use core::hint::black_box;
+use nalgebra::Vector3;
+use surefoot::balance::{
+    Controller, FootLimits, Gains, LeggedRobot, Reference, RobotState, Sole, WorkspaceForm, tick,
+};
+use surefoot::model::robots::biped;
+use surefoot::spatial::{Quaternion, Twist};
+
+static ROBOT: LeggedRobot<f32, 2> = LeggedRobot::new(&biped::TREE).to_f32(&biped::TREE_F32);
+
+/// One tick in single precision of a controller of whose robot, gains, form, limits, state and
+/// reference the optimiser knows nothing but the types.
+#[inline(always)]
+pub fn opaque_tick() {
+    let controller = Controller {
+        robot: black_box(&ROBOT),
+        gains: black_box(Gains::experiments()),
+        form: black_box(WorkspaceForm::BigBase { factor: 1e3 }),
+        singularity: black_box(0.01),
+        foot_limits: black_box(Some(FootLimits {
+            least_normal_force: 0.0,
+            friction: Some(0.3),
+            sole: Some(Sole { x: [-0.2, 0.05], y: [-0.05, 0.05], z: -0.06 }),
+        })),
+    };
+    let position = Vector3::new(0.0, 0.0, 1.035);
+    let state = black_box(RobotState {
+        position,
+        orientation: Quaternion::identity(),
+        velocity: Twist::zero(),
+        joint_angles: [[0.0, 0.698, 0.0, -1.352, 0.0, 0.654]; 2],
+        joint_rates: [[0.0; 6]; 2],
+    });
+    let reference = black_box(Reference::at_rest(position, Quaternion::identity()));
+    let _ = black_box(tick(&controller, &state, &reference));
+}
+
+/// Ends an image: there is nothing more to do, and nowhere to return to.
+#[cfg(target_os = "none")]
+pub fn halt() -> ! {
+    loop {
+        black_box(());
+    }
+}
+
+/// On the host there is no image, only a program that says so.
+#[cfg(not(target_os = "none"))]
+pub fn halt() -> ! {
+    println!("This program is an image for the target; `cargo xtask test` builds and reads it.");
+    std::process::exit(0)
+}
+
+/// Linked only where something can panic. The name is what the check looks for; never inlined, so
+/// that the name survives.
+#[cfg(target_os = "none")]
+#[inline(never)]
+fn panic_reached() -> ! {
+    halt()
+}
+
+#[cfg(target_os = "none")]
+#[panic_handler]
+fn on_panic(_: &core::panic::PanicInfo) -> ! {
+    panic_reached()
+}

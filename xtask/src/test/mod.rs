@@ -1,0 +1,66 @@
+//! `cargo xtask test`: every test of the workspace, stage after stage.
+
+mod doc_tests;
+mod panic_free;
+mod record;
+mod target;
+mod tests;
+
+use crate::arm_toolchain::ArmToolchain;
+use anyhow::Result;
+use clap::{Args, ValueEnum};
+use record::Record;
+
+/// Which stages to run.
+#[derive(Args)]
+pub struct Options {
+    /// Run this stage only (may be given several times).
+    #[arg(long, value_name = "STAGE")]
+    only: Vec<Stage>,
+    /// Leave out what needs a compiler for the target.
+    #[arg(long)]
+    skip_target: bool,
+}
+
+/// A part of the test that can be run on its own.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Stage {
+    /// Unit tests and the suite, on the host.
+    Tests,
+    /// The examples in the documentation, on the host.
+    DocTests,
+    /// Core compiles for the target.
+    Target,
+    /// No panicking path in the tick, nor in the rest of core, on the target.
+    PanicFree,
+}
+
+impl Options {
+    fn wants(&self, stage: Stage) -> bool {
+        let needs_target = matches!(stage, Stage::Target | Stage::PanicFree);
+        (self.only.is_empty() || self.only.contains(&stage)) && !(needs_target && self.skip_target)
+    }
+}
+
+/// Runs the stages. One that fails does not keep the others from running.
+pub fn run(options: &Options) -> Result<()> {
+    let mut record = Record::default();
+    if options.wants(Stage::Tests) {
+        record.stage("tests", tests::run);
+    }
+    if options.wants(Stage::DocTests) {
+        record.stage("doc-tests", doc_tests::run);
+    }
+    if options.wants(Stage::Target) || options.wants(Stage::PanicFree) {
+        let arm = record.stage("arm-toolchain", ArmToolchain::provide);
+        if let Some(arm) = &arm {
+            if options.wants(Stage::Target) {
+                record.stage("target", || target::run(arm));
+            }
+            if options.wants(Stage::PanicFree) {
+                record.stage("panic-free", || panic_free::run(arm));
+            }
+        }
+    }
+    record.finish()
+}

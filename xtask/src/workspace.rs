@@ -1,0 +1,45 @@
+//! Where the workspace is, and cargo within it.
+
+use crate::step::Step;
+use anyhow::{Context, Result};
+use serde::Deserialize;
+use std::env;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+/// Folder of the workspace's manifest.
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("xtask is a folder of the workspace")
+}
+
+/// A cargo command. It is the cargo that runs this program: rustup's, if it is one, sees to that.
+pub fn cargo<A: Into<OsString>>(arguments: impl IntoIterator<Item = A>) -> Step {
+    Step::new("cargo", arguments)
+}
+
+/// The compiler that cargo uses here unless told otherwise.
+pub fn rustc<A: Into<OsString>>(arguments: impl IntoIterator<Item = A>) -> Step {
+    Step::new(env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()), arguments)
+}
+
+/// What cargo says of each thing it has built; only executables are of interest.
+#[derive(Deserialize)]
+struct Message {
+    executable: Option<PathBuf>,
+}
+
+/// Builds, and asks cargo itself which executables came of it, so that no setting of target folders
+/// needs to be known here. The `last` arguments come after all others.
+///
+/// # Returns
+/// The paths of the executables.
+pub fn executables<const N: usize>(build: Step, last: [&str; N]) -> Result<Vec<PathBuf>> {
+    let build = build.args(["--message-format=json-render-diagnostics"]).args(last);
+    let messages = build.run_and_read()?;
+    let paths = messages
+        .lines()
+        .map(|line| Ok(serde_json::from_str::<Message>(line)?.executable))
+        .collect::<Result<Vec<_>>>()
+        .with_context(|| format!("`{build}` wrote a message that cannot be read"))?;
+    Ok(paths.into_iter().flatten().collect())
+}
