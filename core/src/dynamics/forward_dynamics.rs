@@ -54,9 +54,9 @@ pub fn forward_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
     let mut p = [ArticulatedInertia::zero(); N];
     let mut z = [Wrench::zero(); N];
 
-    for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate() {
+    for (k, node, pose) in joint_poses.joints(&tree.nodes) {
         let omega = node.inboard.and_then(|i| terms.get(i)).unwrap_or(&still).omega;
-        let own = velocity_terms(node, pose, omega, &joint_poses.positions, velocities);
+        let own = velocity_terms(node, &pose, omega, &joint_poses.positions, velocities);
         p[k] = node.inertia.into();
         z[k] = gyroscopic_wrench(node, own.omega);
         terms[k] = own;
@@ -69,7 +69,7 @@ pub fn forward_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
 
     let idle = Hinge { image: Wrench::zero(), inverse: T::zero(), excess: T::zero() };
     let mut hinges = [idle; N];
-    for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate().rev() {
+    for (k, node, pose) in joint_poses.joints(&tree.nodes).rev() {
         let (projected, bias) = match &node.kind {
             JointKind::Fixed => (p[k], z[k] + p[k].product(terms[k].product)),
             JointKind::Revolute(axis) => {
@@ -101,13 +101,13 @@ pub fn forward_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
         {
             let turned = projected.rotated_inboard(&pose.rotation);
             *p = *p + if pose.is_translated { turned.shifted(pose.translation) } else { turned };
-            *z += carried(pose, &bias);
+            *z += carried(&pose, &bias);
         }
     }
 
     let mut result = [T::zero(); NV];
     let mut a = [Twist::zero(); N];
-    for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate() {
+    for (k, node, pose) in joint_poses.joints(&tree.nodes) {
         let arrived = match node.inboard.and_then(|i| a.get(i)) {
             None => {
                 Twist { linear: pose.rotation.outboard(-tree.gravity), angular: Vector3::zeros() }

@@ -13,22 +13,25 @@
 
 use super::JointPoses;
 use super::joint_motion::{JointMotion, own, own_one};
-use super::joint_poses::{JointPose, coordinates};
+use super::joint_poses::{JointPose, coordinates, relative};
 use crate::Real;
 use crate::model::{Axis, JointKind, Node, Tree};
-use crate::spatial::{Pose, Quaternion, Twist};
+use crate::spatial::{AxisTurn, Pose, Quaternion, Twist};
 use nalgebra::{Matrix3, Vector3};
 
-/// Pose, velocity and acceleration of every body frame, from [`forward_kinematics`].
+/// One body's kinematics, from [`forward_kinematics`].
 #[derive(Clone, Copy, Debug)]
-pub struct Kinematics<T, const N: usize> {
+pub struct BodyKinematics<T> {
     /// World from body.
-    pub poses: [Pose<T>; N],
-    /// Body twists, `V_k`, in body frames.
-    pub velocities: [Twist<T>; N],
-    /// Component derivatives of the body twists, `V̇_k`.
-    pub accelerations: [Twist<T>; N],
+    pub pose: Pose<T>,
+    /// Body twist, `V_k`, in the body frame.
+    pub velocity: Twist<T>,
+    /// Component derivative of the body twist, `V̇_k`.
+    pub acceleration: Twist<T>,
 }
+
+/// Pose, velocity and acceleration of every body, from [`forward_kinematics`].
+pub type Kinematics<T, const N: usize> = [BodyKinematics<T>; N];
 
 /// Algorithm 3.1, for joint velocities and accelerations of the whole tree.
 ///
@@ -41,51 +44,54 @@ pub fn forward_kinematics<T: Real, const N: usize, const NQ: usize, const NV: us
     velocities: &[T; NV],
     accelerations: &[T; NV],
 ) -> Kinematics<T, N> {
-    let mut frames = [Twist::zero(); N];
-    let mut derivatives = [Twist::zero(); N];
-    let mut body_velocities = [Twist::zero(); N];
-    let mut body_accelerations = [Twist::zero(); N];
-    for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate() {
-        let (mut twist, mut derivative) = match inboard(node, &frames) {
-            Some(twist) => (
-                transport(pose, twist),
-                inboard(node, &derivatives).map_or(Twist::zero(), |d| transport(pose, d)),
-            ),
-            None => (Twist::zero(), Twist::zero()),
+    let still = BodyKinematics {
+        pose: Pose { rotation: Matrix3::zeros(), position: Vector3::zeros() },
+        velocity: Twist::zero(),
+        acceleration: Twist::zero(),
+    };
+    let base = BodyKinematics { pose: Pose::identity(), ..still };
+    // Of the joint frames, which is where the recursion runs.
+    let mut frames = [still; N];
+    for (k, (node, turn)) in tree.nodes.iter().zip(&joint_poses.turns).enumerate() {
+        // Results are written where they stay: to put them together first and copy them then would
+        // take as long as to find them.
+        let (done, next) = frames.split_at_mut(k.min(N));
+        let (from, Some(own)) = (inboard(node, done).unwrap_or(&base), next.first_mut()) else {
+            continue;
         };
-        match &node.kind {
-            JointKind::Fixed => {}
-            JointKind::Revolute(axis) => {
-                let beta = own_one(node, velocities);
-                let beta_dot = own_one(node, accelerations);
+        match (&node.kind, &node.home_rotation) {
+            // The joint that robots are made of, in one piece for each axis.
+            (JointKind::Revolute(axis), None) => {
+                let (beta, beta_dot) = (own_one(node, velocities), own_one(node, accelerations));
                 match axis {
-                    Axis::X => turn::<T, 0>(&mut twist, &mut derivative, beta, beta_dot),
-                    Axis::Y => turn::<T, 1>(&mut twist, &mut derivative, beta, beta_dot),
-                    Axis::Z => turn::<T, 2>(&mut twist, &mut derivative, beta, beta_dot),
+                    Axis::X => across_hinge::<T, 0>(own, node, turn, from, beta, beta_dot),
+                    Axis::Y => across_hinge::<T, 1>(own, node, turn, from, beta, beta_dot),
+                    Axis::Z => across_hinge::<T, 2>(own, node, turn, from, beta, beta_dot),
                 }
             }
             _ => {
-                let beta = own(node, velocities);
-                let motion = JointMotion::new(node, &joint_poses.positions, &beta);
-                let relative = motion.relative(&beta);
-                twist = twist + relative;
-                derivative = derivative
-                    + motion.relative(&own(node, accelerations))
-                    + twist.bracket(relative)
-                    + motion.map_rate;
+                let (beta, beta_dot) =
+                    (self::own(node, velocities), self::own(node, accelerations));
+                across_joint(own, node, turn, &joint_poses.positions, from, &beta, &beta_dot);
             }
+        };
+    }
+    // From the joint frames to the body frames, in place. The centre of mass is fixed in the joint
+    // frame, so that V̇ moves to it as V does.
+    for (body, node) in frames.iter_mut().zip(&tree.nodes) {
+        if node.is_eccentric {
+            let c = node.center;
+            body.pose.position = body.pose.transform_point(c);
+            body.velocity.linear += body.velocity.angular.cross(&c);
+            body.acceleration.linear += body.acceleration.angular.cross(&c);
         }
-        frames[k] = twist;
-        derivatives[k] = derivative;
-        // The centre of mass is fixed in the joint frame, so that V̇ moves to it as V does.
-        body_velocities[k] = at_body(node, twist);
-        body_accelerations[k] = at_body(node, derivative);
+        if let Some(r) = &node.body_rotation {
+            body.pose.rotation *= r;
+            body.velocity = turned_back(r, body.velocity);
+            body.acceleration = turned_back(r, body.acceleration);
+        }
     }
-    Kinematics {
-        poses: body_poses(tree, joint_poses),
-        velocities: body_velocities,
-        accelerations: body_accelerations,
-    }
+    frames
 }
 
 /// (3.1): world from body, for every body. O(N).
@@ -95,33 +101,21 @@ pub fn body_poses<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     joint_poses: &JointPoses<T, N, NQ>,
 ) -> [Pose<T>; N] {
     let mut frames = [Pose { rotation: Matrix3::zeros(), position: Vector3::zeros() }; N];
-    let mut poses = frames;
-    for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate() {
-        let frame = match inboard(node, &frames) {
+    for (k, node, pose) in joint_poses.joints(&tree.nodes) {
+        frames[k] = match inboard(node, &frames) {
             None => Pose { rotation: pose.rotation_matrix(), position: pose.translation },
-            Some(inboard) => Pose {
-                rotation: pose.rotation.compose(&inboard.rotation),
-                position: if pose.is_translated {
-                    inboard.transform_point(pose.translation)
-                } else {
-                    inboard.position
-                },
-            },
-        };
-        frames[k] = frame;
-        poses[k] = Pose {
-            rotation: match &node.body_rotation {
-                None => frame.rotation,
-                Some(r) => frame.rotation * r,
-            },
-            position: if node.is_eccentric {
-                frame.transform_point(node.center)
-            } else {
-                frame.position
-            },
+            Some(inboard) => outboard_pose(&pose, inboard),
         };
     }
-    poses
+    for (body, node) in frames.iter_mut().zip(&tree.nodes) {
+        if node.is_eccentric {
+            body.position = body.transform_point(node.center);
+        }
+        if let Some(r) = &node.body_rotation {
+            body.rotation *= r;
+        }
+    }
+    frames
 }
 
 /// (3.9): body twists `V_k` of every body, in body frames. O(N).
@@ -132,10 +126,9 @@ pub fn body_velocities<T: Real, const N: usize, const NQ: usize, const NV: usize
     velocities: &[T; NV],
 ) -> [Twist<T>; N] {
     let mut frames = [Twist::zero(); N];
-    let mut bodies = frames;
-    for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate() {
+    for (k, node, pose) in joint_poses.joints(&tree.nodes) {
         let mut twist =
-            inboard(node, &frames).map_or(Twist::zero(), |inboard| transport(pose, inboard));
+            inboard(node, &frames).map_or(Twist::zero(), |inboard| transport(&pose, inboard));
         match &node.kind {
             JointKind::Fixed => {}
             JointKind::Revolute(Axis::X) => twist.angular.x += own_one(node, velocities),
@@ -148,9 +141,16 @@ pub fn body_velocities<T: Real, const N: usize, const NQ: usize, const NV: usize
             }
         }
         frames[k] = twist;
-        bodies[k] = at_body(node, twist);
     }
-    bodies
+    for (body, node) in frames.iter_mut().zip(&tree.nodes) {
+        if node.is_eccentric {
+            body.linear += body.angular.cross(&node.center);
+        }
+        if let Some(r) = &node.body_rotation {
+            *body = turned_back(r, *body);
+        }
+    }
+    frames
 }
 
 /// (3.6): `dθ/dt = B(θ) β` for all joints. For quaternions this is the tangent `½ q ⋆ (0, ω)`; a
@@ -210,34 +210,80 @@ fn transport<T: Real>(pose: &JointPose<T>, twist: &Twist<T>) -> Twist<T> {
     Twist { linear: pose.rotation.outboard(linear), angular: pose.rotation.outboard(twist.angular) }
 }
 
-/// Adds `H β` to `V` and `H β̇ + ad(V) H β` to `V̇`, where `H` is a turn about axis `I`:
-/// `v × e_I = (v_k e_j − v_j e_k)`.
+/// (3.1), (3.9), (3.10) across a turn about axis `I`, for which
+/// `ad(V) H β = β (v_k e_j − v_j e_k, ω_k e_j − ω_j e_k)`.
 #[inline(always)]
-fn turn<T: Real, const I: usize>(
-    twist: &mut Twist<T>,
-    derivative: &mut Twist<T>,
+fn across_hinge<T: Real, const I: usize>(
+    own: &mut BodyKinematics<T>,
+    node: &Node<T>,
+    turn: &AxisTurn<T>,
+    from: &BodyKinematics<T>,
     beta: T,
     beta_dot: T,
 ) {
+    let back = turn.back();
+    let transport = |twist: &Twist<T>| Twist {
+        linear: back.vector::<I>(if node.is_offset {
+            twist.linear + twist.angular.cross(&node.offset)
+        } else {
+            twist.linear
+        }),
+        angular: back.vector::<I>(twist.angular),
+    };
+    let mut velocity = transport(&from.velocity);
+    let mut acceleration = transport(&from.acceleration);
     let (j, k) = ((I + 1) % 3, (I + 2) % 3);
-    twist.angular[I] += beta;
-    derivative.linear[j] += twist.linear[k] * beta;
-    derivative.linear[k] -= twist.linear[j] * beta;
-    derivative.angular[j] += twist.angular[k] * beta;
-    derivative.angular[k] -= twist.angular[j] * beta;
-    derivative.angular[I] += beta_dot;
+    acceleration.linear[j] += velocity.linear[k] * beta;
+    acceleration.linear[k] -= velocity.linear[j] * beta;
+    acceleration.angular[j] += velocity.angular[k] * beta;
+    acceleration.angular[k] -= velocity.angular[j] * beta;
+    acceleration.angular[I] += beta_dot;
+    velocity.angular[I] += beta;
+    own.velocity = velocity;
+    own.acceleration = acceleration;
+    own.pose.rotation = turn.columns::<I>(&from.pose.rotation);
+    own.pose.position =
+        if node.is_offset { from.pose.transform_point(node.offset) } else { from.pose.position };
 }
 
-/// From the joint frame to the body frame.
+/// (3.1), (3.9), (3.10) across any joint.
+#[inline(never)]
+fn across_joint<T: Real, const NQ: usize>(
+    own: &mut BodyKinematics<T>,
+    node: &Node<T>,
+    turn: &AxisTurn<T>,
+    positions: &[T; NQ],
+    from: &BodyKinematics<T>,
+    beta: &[T; 6],
+    beta_dot: &[T; 6],
+) {
+    let pose = relative(node, *turn, positions);
+    let motion = JointMotion::new(node, positions, beta);
+    let relative = motion.relative(beta);
+    let velocity = transport(&pose, &from.velocity) + relative;
+    own.pose = outboard_pose(&pose, &from.pose);
+    own.velocity = velocity;
+    own.acceleration = transport(&pose, &from.acceleration)
+        + motion.relative(beta_dot)
+        + velocity.bracket(relative)
+        + motion.map_rate;
+}
+
+/// `g_{0,k.o}` of (3.1).
 #[inline(always)]
-fn at_body<T: Real>(node: &Node<T>, twist: Twist<T>) -> Twist<T> {
-    let moved = if node.is_eccentric {
-        Twist { linear: twist.linear + twist.angular.cross(&node.center), ..twist }
-    } else {
-        twist
-    };
-    match &node.body_rotation {
-        None => moved,
-        Some(r) => Twist { linear: r.tr_mul(&moved.linear), angular: r.tr_mul(&moved.angular) },
+fn outboard_pose<T: Real>(pose: &JointPose<T>, inboard: &Pose<T>) -> Pose<T> {
+    Pose {
+        rotation: pose.rotation.compose(&inboard.rotation),
+        position: if pose.is_translated {
+            inboard.transform_point(pose.translation)
+        } else {
+            inboard.position
+        },
     }
+}
+
+/// A twist in the axes of the body frame.
+#[inline(always)]
+fn turned_back<T: Real>(r: &Matrix3<T>, twist: Twist<T>) -> Twist<T> {
+    Twist { linear: r.tr_mul(&twist.linear), angular: r.tr_mul(&twist.angular) }
 }

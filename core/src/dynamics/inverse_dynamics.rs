@@ -57,9 +57,9 @@ pub fn inverse_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
     let mut motions = [base; N];
     let mut wrenches = [Wrench::zero(); N];
 
-    for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate() {
+    for (k, node, pose) in joint_poses.joints(&tree.nodes) {
         let from = inboard(node, &motions).unwrap_or(&base);
-        let motion = step(node, pose, from, &joint_poses.positions, velocities, accelerations);
+        let motion = step(node, &pose, from, &joint_poses.positions, velocities, accelerations);
         wrenches[k] = inertial_wrench(node, &motion);
         motions[k] = motion;
     }
@@ -70,11 +70,11 @@ pub fn inverse_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
     }
 
     let mut torques = [T::zero(); NV];
-    for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate().rev() {
+    for (k, node, pose) in joint_poses.joints(&tree.nodes).rev() {
         let wrench = wrenches[k];
         project(node, &wrench, &joint_poses.positions, velocities, &mut torques);
         if let Some(inboard) = node.inboard.and_then(|i| wrenches.get_mut(i)) {
-            *inboard += carried(pose, &wrench);
+            *inboard += carried(&pose, &wrench);
         }
     }
     torques

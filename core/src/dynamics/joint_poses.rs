@@ -3,20 +3,24 @@
 use super::DynamicsFault;
 use crate::Real;
 use crate::model::{Axis, JointKind, Node, Tree};
-use crate::spatial::{AxisTurn, Quaternion, Rotation};
+use crate::spatial::{AxisTurn, Pose, Quaternion, Rotation};
 use nalgebra::{Matrix3, Vector3};
 
-/// The joint frames of one configuration relative to their inboard frames, from [`joint_poses`].
+/// The joints' relative poses at one configuration, from [`joint_poses`].
+///
+/// Sines and cosines are kept, the rest is put together where it is used: that is a few loads for a
+/// revolute joint, and keeps this result small enough to be passed by value.
 #[derive(Clone, Copy, Debug)]
 pub struct JointPoses<T, const N: usize, const NQ: usize> {
-    pub(crate) relative: [JointPose<T>; N],
-    /// Kept for joints whose map depends on their coordinates.
-    pub(crate) positions: [T; NQ],
+    /// Of the joint's angle; of no meaning for joints without one.
+    pub(super) turns: [AxisTurn<T>; N],
+    /// Coordinates, with quaternions scaled to unit norm.
+    pub(super) positions: [T; NQ],
 }
 
 /// Outboard frame in the inboard frame.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct JointPose<T> {
+pub(super) struct JointPose<T> {
     pub rotation: Rotation<T>,
     pub translation: Vector3<T>,
     /// Whether the translation differs from zero by the joint's construction.
@@ -37,18 +41,59 @@ pub fn joint_poses<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     tree: &Tree<T, N, NQ, NV>,
     positions: &[T; NQ],
 ) -> Result<JointPoses<T, N, NQ>, DynamicsFault> {
-    if let Some(index) = positions.iter().position(|x| !x.is_finite()) {
+    // One pass without branches; which coordinate it was is only asked when there is one.
+    let finite = positions.iter().fold(true, |all, x| all & x.is_finite());
+    if !finite {
+        let index = positions.iter().position(|x| !x.is_finite()).unwrap_or(NQ);
         return Err(DynamicsFault::PositionNotFinite { index });
     }
-    let mut relative = [JointPose {
-        rotation: Rotation::Identity,
-        translation: Vector3::zeros(),
-        is_translated: false,
-    }; N];
-    for (joint, (pose, node)) in relative.iter_mut().zip(&tree.nodes).enumerate() {
-        *pose = joint_pose(node, positions).ok_or(DynamicsFault::QuaternionNotUnit { joint })?;
+    let mut poses = JointPoses {
+        turns: [AxisTurn { cosine: T::one(), sine: T::zero() }; N],
+        positions: *positions,
+    };
+    for (joint, (node, turn)) in tree.nodes.iter().zip(&mut poses.turns).enumerate() {
+        let quaternion = match &node.kind {
+            JointKind::Revolute(_) => {
+                *turn = AxisTurn::new(coordinate(node, positions));
+                continue;
+            }
+            JointKind::Spherical => node.position_start,
+            JointKind::Floating => node.position_start + 3,
+            _ => continue,
+        };
+        normalize(&mut poses.positions, quaternion)
+            .ok_or(DynamicsFault::QuaternionNotUnit { joint })?;
     }
-    Ok(JointPoses { relative, positions: *positions })
+    Ok(poses)
+}
+
+/// Scales the four numbers from `start` on to unit norm, if they are near it.
+fn normalize<T: Real, const NQ: usize>(positions: &mut [T; NQ], start: usize) -> Option<()> {
+    let own = positions.get_mut(start..)?.first_chunk_mut::<4>()?;
+    let q = Quaternion::from_array(*own);
+    let error = q.norm_squared() - T::one();
+    if error.abs() < T::of(2e-3) {
+        *own = q.normalized()?.to_array();
+        Some(())
+    } else {
+        None
+    }
+}
+
+impl<T: Real, const N: usize, const NQ: usize> JointPoses<T, N, NQ> {
+    /// The joints of a tree with their relative poses, inboard ones first.
+    #[inline(always)]
+    pub(super) fn joints<'a>(
+        &'a self,
+        nodes: &'a [Node<T>; N],
+    ) -> impl DoubleEndedIterator<Item = (usize, &'a Node<T>, JointPose<T>)> + ExactSizeIterator
+    {
+        nodes
+            .iter()
+            .zip(&self.turns)
+            .enumerate()
+            .map(|(k, (node, turn))| (k, node, relative(node, *turn, &self.positions)))
+    }
 }
 
 /// The joint's own coordinates, padded with zeros.
@@ -68,64 +113,59 @@ fn coordinate<T: Real, const NQ: usize>(node: &Node<T>, positions: &[T; NQ]) -> 
     positions.get(node.position_start).copied().unwrap_or(T::zero())
 }
 
+/// `g_{k.i,k.o}` of one joint.
 #[inline(always)]
-fn joint_pose<T: Real, const NQ: usize>(
+pub(super) fn relative<T: Real, const NQ: usize>(
     node: &Node<T>,
+    turn: AxisTurn<T>,
     positions: &[T; NQ],
-) -> Option<JointPose<T>> {
+) -> JointPose<T> {
     let fixed =
         |rotation| JointPose { rotation, translation: node.offset, is_translated: node.is_offset };
-    Some(match &node.kind {
+    match &node.kind {
         JointKind::Fixed => fixed(turned(node, Rotation::Identity)),
-        JointKind::Revolute(axis) => {
-            let turn = AxisTurn::new(coordinate(node, positions));
-            let rotation = match axis {
-                Axis::X => Rotation::X(turn),
-                Axis::Y => Rotation::Y(turn),
-                Axis::Z => Rotation::Z(turn),
-            };
-            fixed(turned(node, rotation))
-        }
+        JointKind::Revolute(Axis::X) => fixed(turned(node, Rotation::X(turn))),
+        JointKind::Revolute(Axis::Y) => fixed(turned(node, Rotation::Y(turn))),
+        JointKind::Revolute(Axis::Z) => fixed(turned(node, Rotation::Z(turn))),
+        _ => unusual(node, positions),
+    }
+}
+
+/// The same for joints that are neither fixed nor revolute.
+#[inline(never)]
+fn unusual<T: Real, const NQ: usize>(node: &Node<T>, positions: &[T; NQ]) -> JointPose<T> {
+    let own = coordinates(node, positions);
+    let home = turned(node, Rotation::Identity);
+    let (pose, is_translated) = match &node.kind {
+        JointKind::Fixed | JointKind::Revolute(_) => (Pose::identity(), false),
         JointKind::Prismatic(axis) => {
             let mut slide = Vector3::zeros();
             match axis {
-                Axis::X => slide.x = coordinate(node, positions),
-                Axis::Y => slide.y = coordinate(node, positions),
-                Axis::Z => slide.z = coordinate(node, positions),
+                Axis::X => slide.x = own[0],
+                Axis::Y => slide.y = own[0],
+                Axis::Z => slide.z = own[0],
             }
-            let rotation = turned(node, Rotation::Identity);
-            JointPose {
-                translation: node.offset + rotation.inboard(slide),
-                rotation,
-                is_translated: true,
-            }
+            (Pose { rotation: Matrix3::identity(), position: slide }, true)
         }
         JointKind::Spherical => {
-            let [s, x, y, z, ..] = coordinates(node, positions);
-            let q = unit_quaternion([s, x, y, z])?;
-            fixed(turned(node, Rotation::General(q.to_matrix())))
+            let [s, x, y, z, ..] = own;
+            let rotation = Quaternion::from_array([s, x, y, z]).to_matrix();
+            (Pose { rotation, position: Vector3::zeros() }, node.is_offset)
         }
         JointKind::Floating => {
-            let [px, py, pz, s, x, y, z] = coordinates(node, positions);
-            let q = unit_quaternion([s, x, y, z])?;
-            JointPose {
-                rotation: Rotation::General(q.to_matrix()),
-                translation: Vector3::new(px, py, pz),
-                is_translated: true,
-            }
+            let [px, py, pz, s, x, y, z] = own;
+            let rotation = Quaternion::from_array([s, x, y, z]).to_matrix();
+            (Pose { rotation, position: Vector3::new(px, py, pz) }, true)
         }
-        JointKind::General(joint) => {
-            let pose = joint.motion(&coordinates(node, positions), &[T::zero(); 6]).pose;
-            // The joint frames are those of the home configuration: R_home and R(θ) compose as for
-            // any other joint, and the joint's own translation is given in the inboard joint frame.
-            let home = turned(node, Rotation::Identity);
-            JointPose {
-                translation: node.offset + home.inboard(pose.position),
-                rotation: turned(node, Rotation::General(pose.rotation)),
-                is_translated: true,
-            }
-        }
-    })
+        JointKind::General(joint) => (joint.motion(&own, &[T::zero(); 6]).pose, true),
+    };
+    // The joint frames coincide at home: R_home stands before R(θ), and a joint's own translation is
+    // given in the inboard joint frame.
+    JointPose {
+        rotation: turned(node, Rotation::General(pose.rotation)),
+        translation: node.offset + home.inboard(pose.position),
+        is_translated,
+    }
 }
 
 /// `R_home R(θ)`.
@@ -135,13 +175,6 @@ fn turned<T: Real>(node: &Node<T>, rotation: Rotation<T>) -> Rotation<T> {
         None => rotation,
         Some(home) => Rotation::General(rotation.compose(home)),
     }
-}
-
-#[inline(always)]
-fn unit_quaternion<T: Real>(q: [T; 4]) -> Option<Quaternion<T>> {
-    let q = Quaternion::from_array(q);
-    let error = q.norm_squared() - T::one();
-    if error.abs() < T::of(2e-3) { q.normalized() } else { None }
 }
 
 impl<T: Real> JointPose<T> {

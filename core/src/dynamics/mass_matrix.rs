@@ -7,6 +7,7 @@
 use super::JointPoses;
 use super::inverse_dynamics::carried;
 use super::joint_motion::JointMotion;
+use super::joint_poses::relative;
 use crate::Real;
 use crate::model::{Axis, JointKind, Node, Tree};
 use crate::spatial::{RigidInertia, SymmetricMatrix3, Twist, Wrench};
@@ -32,7 +33,7 @@ pub fn mass_matrix<T: Real, const N: usize, const NQ: usize, const NV: usize>(
         *c = node.inertia;
     }
     let mut matrix = [[T::zero(); NV]; NV];
-    for (k, (node, pose)) in tree.nodes.iter().zip(&joint_poses.relative).enumerate().rev() {
+    for (k, node, pose) in joint_poses.joints(&tree.nodes).rev() {
         let own = composite[k];
         if let Some(inboard) = node.inboard.and_then(|i| composite.get_mut(i)) {
             let turned = RigidInertia {
@@ -92,8 +93,7 @@ fn row<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     let mut wrench = image;
     let mut at = Some(k);
     // The path to the inertial frame has at most N joints, since numbers decrease along it.
-    while let Some((node, pose)) =
-        at.and_then(|j| tree.nodes.get(j).zip(joint_poses.relative.get(j)))
+    while let Some((node, turn)) = at.and_then(|j| tree.nodes.get(j).zip(joint_poses.turns.get(j)))
     {
         let columns = if at == Some(k) { i + 1 } else { node.kind.degrees_of_freedom() };
         let products = joint_products(node, joint_poses, &wrench);
@@ -102,7 +102,8 @@ fn row<T: Real, const N: usize, const NQ: usize, const NV: usize>(
             set(matrix, node.velocity_start + j, row, product);
         }
         if node.inboard.is_some() {
-            wrench = carried(pose, &wrench);
+            let pose = relative(node, *turn, &joint_poses.positions);
+            wrench = carried(&pose, &wrench);
         }
         at = node.inboard;
     }

@@ -25,7 +25,7 @@ pub use fault::DynamicsFault;
 pub use forward_dynamics::forward_dynamics;
 pub(crate) use forward_dynamics::project_turn;
 pub use forward_kinematics::{
-    Kinematics, body_poses, body_velocities, forward_kinematics, position_rates,
+    BodyKinematics, Kinematics, body_poses, body_velocities, forward_kinematics, position_rates,
 };
 pub use inverse_dynamics::{bias_forces, inverse_dynamics};
 pub use joint_poses::{JointPoses, joint_poses};

@@ -90,7 +90,7 @@ fn check<const LEGS: usize, const N: usize, const NQ: usize, const NV: usize, co
     let bias = SVector::from(bias_forces(tree, &relative, &beta, None));
     let still = forward_kinematics(tree, &relative, &beta, &[0.0; NV]);
     let gamma =
-        SVector::<f64, C>::from_fn(|i, _| still.accelerations[feet[i / 6]].to_array()[i % 6]);
+        SVector::<f64, C>::from_fn(|i, _| still[feet[i / 6]].acceleration.to_array()[i % 6]);
     let wrench = symmetric::<6>(rng).map(|x| 300.0 * x);
     let mut force = -bias;
     for (f, w) in force.iter_mut().zip(wrench) {

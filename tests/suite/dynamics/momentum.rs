@@ -21,8 +21,8 @@ fn internal_torques_change_no_momentum() {
         let kinematics = forward_kinematics(&tree, &poses, &v, &a);
         let (mut linear, mut angular, mut scale) = (Vector3::zeros(), Vector3::zeros(), 0.0);
         for (k, body) in bodies.iter().enumerate() {
-            let pose = &kinematics.poses[k];
-            let (v, a) = (kinematics.velocities[k], kinematics.accelerations[k]);
+            let pose = &kinematics[k].pose;
+            let (v, a) = (kinematics[k].velocity, kinematics[k].acceleration);
             let inertia = Matrix3::from_diagonal(&Vector3::from(body.inertia));
             let force = pose.rotation * (a.linear + v.angular.cross(&v.linear)) * body.mass;
             let torque =

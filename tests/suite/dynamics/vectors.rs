@@ -96,7 +96,7 @@ fn compare_state<T: Real>(tree: &Biped<T>, state: &Value, errors: &mut Errors) {
     let kinematics = forward_kinematics(tree, &poses, &velocities, &found);
     worst(
         &mut errors.acceleration,
-        &kinematics.accelerations[0].to_array().map(Real::to_f64),
+        &kinematics[0].acceleration.to_array().map(Real::to_f64),
         &array::<6>(&state["aba_V1dot"]),
     );
 

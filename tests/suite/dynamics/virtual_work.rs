@@ -50,9 +50,9 @@ fn free_body_wrench(
     kinematics: &Kinematics<f64, N>,
     gravity: Vector3<f64>,
 ) -> Wrench<f64> {
-    let (v, a) = (kinematics.velocities[k], kinematics.accelerations[k]);
+    let (v, a) = (kinematics[k].velocity, kinematics[k].acceleration);
     let inertia = Matrix3::from_diagonal(&Vector3::from(body.inertia));
-    let weight = kinematics.poses[k].rotation.transpose() * gravity * body.mass;
+    let weight = kinematics[k].pose.rotation.transpose() * gravity * body.mass;
     Wrench {
         force: (a.linear + v.angular.cross(&v.linear)) * body.mass - weight,
         torque: inertia * a.angular + v.angular.cross(&(inertia * v.angular)),
@@ -91,11 +91,11 @@ fn check<const NQ: usize, const NV: usize>(
     let mut errors = [0.0_f64; 4];
 
     for k in 0..N {
-        let seen = difference(&before.0[k], &kinematics.poses[k], &after.0[k]);
-        let ours = kinematics.velocities[k].to_array();
+        let seen = difference(&before.0[k], &kinematics[k].pose, &after.0[k]);
+        let ours = kinematics[k].velocity.to_array();
         errors[0] = errors[0].max(relative_error(&ours, &seen.to_array()));
         let seen = (after.1[k] - before.1[k]) * (0.5 / H);
-        let ours = kinematics.accelerations[k].to_array();
+        let ours = kinematics[k].acceleration.to_array();
         errors[1] = errors[1].max(relative_error(&ours, &seen.to_array()));
     }
 
@@ -121,7 +121,7 @@ fn check<const NQ: usize, const NV: usize>(
     let rate = (energy(bodies, &after.0, &after.1, g) - energy(bodies, &before.0, &before.1, g))
         / (2.0 * H);
     let power = torques.iter().zip(&motion.v).map(|(t, v)| t * v).sum::<f64>()
-        + kinematics.velocities.iter().zip(&applied).map(|(v, f)| v.power(*f)).sum::<f64>();
+        + kinematics.iter().zip(&applied).map(|(body, f)| body.velocity.power(*f)).sum::<f64>();
     errors[3] = relative_error(&[power], &[rate]);
     errors
 }
