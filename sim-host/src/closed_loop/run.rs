@@ -45,7 +45,8 @@ pub fn run(scene: &Scene, controller: &mut dyn Controller, progress: &mut dyn Fn
         wall: Duration::ZERO,
     };
     let result = match plant(scene) {
-        Ok(mut plant) => advance(scene, plant.as_mut(), controller, progress, &mut run),
+        Ok(mut plant) => advance(scene, plant.as_mut(), controller, progress, &mut run)
+            .map_err(|failure| with_step_limit(failure, scene, plant.as_ref())),
         Err(failure) => Err(step_failure(0.0, failure)),
     };
     if let Err(failure) = result {
@@ -167,6 +168,18 @@ fn fallen(plant: &dyn Plant, time: f64) -> Result<(), Failure> {
         place: what,
         advice: "see the record: which foot slips, tips or leaves the floor first".into(),
     })
+}
+
+/// A run that failed beyond the plant's limit of stability has failed for that.
+fn with_step_limit(mut failure: Failure, scene: &Scene, plant: &dyn Plant) -> Failure {
+    if let Some(limit) = plant.step_limit()
+        && scene.integrator.step_s > limit
+    {
+        failure.advice = format!(
+            "a step below {limit:.2e} s, this plant's limit of stability; or a softer floor"
+        );
+    }
+    failure
 }
 
 fn step_failure(time_s: f64, failure: StepFailure) -> Failure {

@@ -51,7 +51,7 @@ pub enum StepFailure {
     #[error("the constraints of the welded feet are dependent (a straight leg)")]
     SingularConstraints,
     /// The state is not a number any more, or far beyond any motion: the step is too large.
-    #[error("velocity {index} grew to {value:e}: the step is too large for this floor or motion")]
+    #[error("velocity {index} grew to {value:.1e}: the step is too large for this floor or motion")]
     Diverged {
         /// Index of the velocity.
         index: usize,

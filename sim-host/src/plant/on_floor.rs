@@ -144,19 +144,19 @@ impl Plant for OnFloor {
         }
     }
 
-    /// Explicit damping `b` on an effective mass `m` is stable for `h < 2m/b`. The lightest answer to
-    /// a push at a sole's corners is that of a foot alone, rolling about its long axis: 4 points at
-    /// ±5 cm, 4 · 2000 · 0.05² = 20 N·m·s/rad, on 1.89e-3 kg·m² with the sole's height,
-    /// m z² = 1.455 · 0.035² = 1.8e-3, in the same motion.
+    /// Explicit damping `b` on an effective mass `m` is stable for `h < 2m/b`, a spring `k` for
+    /// `h < 2√(m/k)`. The lightest answers to the floor are those of a foot alone: rolling about its
+    /// long axis (1.89e-3 kg·m², against the corners' damping across and along the sole's normal),
+    /// and heaving (1.455 kg).
     fn step_limit(&self) -> Option<f64> {
-        let [xx, mass] = [0.00189, 1.455];
+        let [rolling_inertia, mass] = [0.00189, 1.455];
         let damping: f64 = self.corners[0]
             .iter()
             .map(|c| {
                 self.floor.normal_damping * c.y * c.y + self.floor.tangential_damping * c.z * c.z
             })
             .sum();
-        let roll = 2.0 * xx / damping;
+        let roll = 2.0 * rolling_inertia / damping;
         let heave = 2.0 * mass / (CORNERS as f64 * self.floor.normal_damping);
         let stiffness = 2.0 * (mass / (CORNERS as f64 * self.floor.normal_stiffness)).sqrt();
         Some(roll.min(heave).min(stiffness))

@@ -1,0 +1,231 @@
+//! The binary as its users meet it: exit statuses, one JSON document on stdout, messages that say
+//! what, where and what was expected.
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const SCENE: &str = include_str!("../scenes/experiment-1-welded.toml");
+
+/// A folder of this test's own, for scenes and results.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    std::fs::create_dir_all(&folder).expect("a folder below the target directory");
+    folder
+}
+
+fn surefoot(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_surefoot"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .expect("the program starts")
+}
+
+/// Exit status and both streams.
+fn said(output: &Output) -> (Option<i32>, String, String) {
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("UTF-8");
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+/// The scene of the welded feet with some lines changed.
+fn changed_scene(folder: &Path, changes: &[(&str, &str)]) -> String {
+    let mut scene = SCENE.to_owned();
+    for (line, by) in changes {
+        assert!(scene.contains(line), "the scene has the line {line}");
+        scene = scene.replace(line, by);
+    }
+    let path = folder.join("pushed.toml");
+    std::fs::write(&path, scene).expect("writable");
+    path.to_str().expect("UTF-8").to_owned()
+}
+
+#[test]
+fn a_run_prints_one_json_document() {
+    let folder = folder("json");
+    let output = surefoot(
+        &folder,
+        &["run", "experiment-1-welded", "--duration", "0.1", "--json", "--scalar", "f32"],
+    );
+    let (status, stdout, _) = said(&output);
+    assert_eq!(status, Some(0));
+    let document: Value = serde_json::from_str(&stdout).expect("one document and nothing else");
+    for key in [
+        "scene",
+        "integrator",
+        "step_s",
+        "duration_s",
+        "scalar",
+        "steps",
+        "outcome",
+        "failure",
+        "wall_s",
+        "wall_us_per_step",
+        "newton",
+        "unknowns_per_step",
+        "energy",
+        "momentum",
+        "constraint_max",
+        "peak_torque_nm",
+        "desired_force_z_n",
+        "final",
+        "events",
+    ] {
+        assert!(document.get(key).is_some(), "the document has no {key}");
+    }
+    assert_eq!(document["scene"], "experiment-1-welded");
+    assert_eq!(document["scalar"], "f32");
+    assert_eq!(document["steps"], 100);
+    assert_eq!(document["outcome"], "completed");
+    assert_eq!(document["failure"], Value::Null);
+    for key in ["value", "joint", "time_s"] {
+        assert!(!document["peak_torque_nm"][key].is_null(), "peak_torque_nm.{key}");
+    }
+    for file in document["files"].as_array().expect("a list of files") {
+        let path = folder.join(file.as_str().expect("a path"));
+        assert!(path.metadata().expect("written").len() > 1000, "{}", path.display());
+    }
+}
+
+#[test]
+fn the_lists_name_what_run_takes() {
+    let folder = folder("list");
+    let (status, text, _) = said(&surefoot(&folder, &["list"]));
+    assert_eq!(status, Some(0));
+    let (_, stdout, _) = said(&surefoot(&folder, &["list", "--json"]));
+    let document: Value = serde_json::from_str(&stdout).expect("one document");
+    for group in ["scenes", "integrators", "robots"] {
+        for entry in document[group].as_array().expect("a list") {
+            let name = entry["name"].as_str().expect("a name");
+            assert!(text.contains(name), "{name} is in both lists");
+        }
+    }
+    assert!(document["scenes"].as_array().expect("a list").len() >= 2);
+}
+
+/// Bad usage and input: status 2, a message with the culprit and what was expected, and no file.
+#[test]
+fn bad_input_is_refused_before_anything_runs() {
+    let folder = folder("refused");
+    let cases: [(&[&str], &[&str]); 9] = [
+        (&["run", "experiment-l"], &["experiment-l", "experiment-1"]),
+        (&["run", "no-such-scene.toml"], &["no-such-scene.toml"]),
+        (&["run", "--step", "-0.001"], &["step_s", "-0.001", "above zero"]),
+        (&["run", "--step", "NaN"], &["step_s", "NaN", "above zero"]),
+        (&["run", "--step", "1e-15"], &["step_s", "steps"]),
+        (&["run", "--duration", "0"], &["duration_s", "above zero"]),
+        (&["run", "--step", "0.0003"], &["rate_hz", "whole number"]),
+        (&["run", "--scalar", "f16"], &["f16", "f32"]),
+        (&["walk"], &["walk", "Usage"]),
+    ];
+    for (arguments, words) in cases {
+        let (status, stdout, stderr) = said(&surefoot(&folder, arguments));
+        assert_eq!(status, Some(2), "{arguments:?}: {stderr}");
+        assert!(stdout.is_empty(), "{arguments:?} printed {stdout}");
+        for word in words {
+            assert!(stderr.contains(word), "{arguments:?} says {stderr:?}, without {word:?}");
+        }
+    }
+    assert!(!folder.join("out").exists(), "nothing was written");
+    let (status, stdout, _) = said(&surefoot(&folder, &["run", "experiment-l", "--json"]));
+    assert_eq!(status, Some(2));
+    let document: Value = serde_json::from_str(&stdout).expect("one document");
+    assert_eq!(document["error"]["kind"], "bad-input");
+}
+
+/// Scene files that are wrong in one place are refused with that place.
+#[test]
+fn a_wrong_scene_file_is_refused_at_its_line() {
+    let folder = folder("scene-files");
+    for (line, by, words) in [
+        ("rate_hz = 500.0", "rate_hz = nan", vec!["rate_hz", "NaN"]),
+        ("rate_hz = 500.0", "rate_hz = \"fast\"", vec!["rate_hz", "line", "fast"]),
+        ("rate_hz = 500.0", "rate_Hz = 500.0", vec!["rate_Hz", "rate_hz"]),
+        ("turn_deg = 5.0", "", vec!["turn_deg"]),
+        ("duration_s = 3.0", "duration_s = 3.0.0", vec!["line 3"]),
+        ("on = \"welded\"", "on = \"clouds\"", vec!["clouds", "welded"]),
+        (
+            "orientation = [0.99144486,",
+            "orientation = [0.5,",
+            vec!["set_point.orientation", "norm"],
+        ),
+        (
+            "name = \"semi-implicit-euler\"",
+            "name = \"leapfrog\"",
+            vec!["leapfrog", "semi-implicit"],
+        ),
+    ] {
+        let path = changed_scene(&folder, &[(line, by)]);
+        let (status, _, stderr) = said(&surefoot(&folder, &["run", &path]));
+        assert_eq!(status, Some(2), "{by:?}: {stderr}");
+        assert!(stderr.contains("pushed"), "{by:?}: {stderr} does not name the scene");
+        for word in words {
+            assert!(stderr.contains(word), "{by:?} says {stderr:?}, without {word:?}");
+        }
+    }
+}
+
+/// What only shows while running: status 1, and the reason in both forms.
+#[test]
+fn a_run_that_fails_says_why() {
+    let folder = folder("failures");
+    let straight = "[0.0, 40.0, 0.0, -77.4595, 0.0, 42.4595]\nright";
+    let straightened = "[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]\nright";
+    let path = changed_scene(
+        &folder,
+        &[
+            (straight, straightened),
+            ("position_m = [-0.01, 0.0, 1.10]", "position_m = [0.0, 0.0, 0.9]"),
+        ],
+    );
+    for (arguments, kind, words) in [
+        (vec!["run", &path], "controller-fault", vec!["leg 0", "straight knee"]),
+        (vec!["run", "--step", "0.001"], "step", vec!["velocity", "limit of stability"]),
+    ] {
+        let (status, stdout, stderr) = said(&surefoot(&folder, &arguments));
+        assert_eq!(status, Some(1), "{arguments:?}: {stderr}");
+        for word in words {
+            assert!(stdout.contains(word), "{arguments:?} says {stdout:?}, without {word:?}");
+        }
+        let json = [&arguments[..], &["--json"]].concat();
+        let (status, stdout, _) = said(&surefoot(&folder, &json));
+        assert_eq!(status, Some(1));
+        let document: Value = serde_json::from_str(&stdout).expect("one document");
+        assert_eq!(document["outcome"], "failed");
+        assert_eq!(document["failure"]["kind"], kind);
+        for key in ["time_s", "where", "advice"] {
+            assert!(!document["failure"][key].is_null(), "failure.{key}");
+        }
+    }
+}
+
+/// A set point that no leg reaches is seen before the run.
+#[test]
+fn a_set_point_out_of_reach_is_refused() {
+    let folder = folder("reach");
+    let path = changed_scene(
+        &folder,
+        &[("position_m = [-0.01, 0.0, 1.10]", "position_m = [-0.01, 0.0, 2.5]")],
+    );
+    let (status, _, stderr) = said(&surefoot(&folder, &["run", &path]));
+    assert_eq!(status, Some(2), "{stderr}");
+    for word in ["set_point", "2.5", "reach"] {
+        assert!(stderr.contains(word), "{stderr:?} has no {word:?}");
+    }
+}
+
+/// Results go where the user says, and a place that cannot be written is an error, not a loss.
+#[test]
+fn results_go_where_they_are_sent() {
+    let folder = folder("out");
+    let arguments = ["run", "experiment-1-welded", "--duration", "0.01", "--out", "somewhere/else"];
+    let (status, _, stderr) = said(&surefoot(&folder, &arguments));
+    assert_eq!(status, Some(0), "{stderr}");
+    let record = std::fs::read_to_string(folder.join("somewhere/else/record.csv")).expect("there");
+    assert_eq!(record.lines().count(), 1 + 6, "a head and a line for each of the six ticks");
+    std::fs::write(folder.join("blocked"), "a file").expect("writable");
+    let (status, _, stderr) =
+        said(&surefoot(&folder, &["run", "--duration", "0.01", "--out", "blocked/folder"]));
+    assert_eq!(status, Some(2));
+    assert!(stderr.contains("blocked"), "{stderr}");
+}
