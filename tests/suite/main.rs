@@ -2,5 +2,6 @@
 
 mod balance;
 mod closed_loop;
+mod documents;
 mod dynamics;
 mod spatial;
