@@ -10,12 +10,14 @@ mod compile_time;
 mod general_joint;
 mod joint;
 mod link;
+mod node;
 pub mod robots;
+mod single_precision;
 mod tree;
 
 pub(crate) use compile_time::square_root;
 pub use general_joint::{GeneralJoint, GeneralMotion};
 pub use joint::{Axis, JointKind};
 pub use link::Link;
+pub(crate) use node::{InertiaShape, Node};
 pub use tree::Tree;
-pub(crate) use tree::{InertiaShape, Node};

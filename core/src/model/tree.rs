@@ -5,74 +5,10 @@ use super::compile_time::{
     transpose,
 };
 use super::link::Connection;
-use super::{Axis, JointKind, Link};
+use super::node::EMPTY;
+use super::{Axis, InertiaShape, JointKind, Link, Node};
 use crate::spatial::{RigidInertia, SymmetricMatrix3};
 use nalgebra::{Matrix3, Vector3};
-
-/// A joint and its outboard body, in the joint frame.
-///
-/// The joint frame is fixed to the outboard body with its origin on the joint and a coordinate axis
-/// along the joint's. In it a joint map is a unit vector, and the offset to the inboard frame is
-/// constant, often zero; that is where the speed of the recursions comes from. Body frames (centre
-/// of mass, the user's axes) are what the public interface speaks; `center` and `body_rotation`
-/// lead from one to the other.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Node<T> {
-    pub kind: JointKind,
-    /// Index of the inboard node; `None` for the inertial frame.
-    pub inboard: Option<usize>,
-    /// First coordinate and first velocity of the joint.
-    pub position_start: usize,
-    pub velocity_start: usize,
-    /// Origin of this frame in the inboard frame, at home.
-    pub offset: Vector3<T>,
-    /// Whether `offset` differs from zero.
-    pub is_offset: bool,
-    /// Inboard from this frame at home, where they are not parallel.
-    pub home_rotation: Option<Matrix3<T>>,
-    /// Of the outboard body.
-    pub inertia: RigidInertia<T>,
-    /// Whether the centre of mass is away from the joint.
-    pub is_eccentric: bool,
-    /// What is known of the inertia about the joint.
-    pub shape: InertiaShape,
-    /// Centre of mass.
-    pub center: Vector3<T>,
-    /// This frame from the body frame, where they are not parallel.
-    pub body_rotation: Option<Matrix3<T>>,
-}
-
-/// Structure of a body's inertia about its joint that saves work: most robots' links have some.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum InertiaShape {
-    /// The same about every axis, as of a ball in the joint.
-    Isotropic,
-    /// No products of inertia.
-    Diagonal,
-    /// Nothing special.
-    Full,
-}
-
-impl<T: crate::Real> Node<T> {
-    /// `J v`.
-    #[inline(always)]
-    pub(crate) fn rotational_product(&self, v: Vector3<T>) -> Vector3<T> {
-        let j = &self.inertia.rotational;
-        match self.shape {
-            InertiaShape::Full => j.product(v),
-            InertiaShape::Diagonal | InertiaShape::Isotropic => j.diagonal.component_mul(&v),
-        }
-    }
-
-    /// `ω × J ω`.
-    #[inline(always)]
-    pub(crate) fn gyroscopic_torque(&self, omega: Vector3<T>) -> Vector3<T> {
-        if self.shape == InertiaShape::Isotropic {
-            return Vector3::zeros();
-        }
-        omega.cross(&self.rotational_product(omega))
-    }
-}
 
 /// A tree of `N` bodies with `NQ` coordinates and `NV` velocities, in precision `T`.
 ///
@@ -177,44 +113,6 @@ impl<const N: usize, const NQ: usize, const NV: usize> Tree<f64, N, NQ, NV> {
     pub const fn with_gravity(self, gravity: [f64; 3]) -> Self {
         let [x, y, z] = gravity;
         Self { nodes: self.nodes, gravity: Vector3::new(x, y, z) }
-    }
-
-    /// The same tree in single precision, for the target.
-    pub const fn to_f32(&self) -> Tree<f32, N, NQ, NV> {
-        let mut nodes = [EMPTY_F32; N];
-        let mut k = 0;
-        while k < N {
-            let node = &self.nodes[k];
-            nodes[k] = Node {
-                kind: node.kind,
-                inboard: node.inboard,
-                position_start: node.position_start,
-                velocity_start: node.velocity_start,
-                offset: vector_f32(&node.offset),
-                is_offset: node.is_offset,
-                home_rotation: match &node.home_rotation {
-                    Some(m) => Some(matrix_f32(m)),
-                    None => None,
-                },
-                inertia: RigidInertia {
-                    mass: node.inertia.mass as f32,
-                    first_moment: vector_f32(&node.inertia.first_moment),
-                    rotational: SymmetricMatrix3 {
-                        diagonal: vector_f32(&node.inertia.rotational.diagonal),
-                        off_diagonal: vector_f32(&node.inertia.rotational.off_diagonal),
-                    },
-                },
-                is_eccentric: node.is_eccentric,
-                shape: node.shape,
-                center: vector_f32(&node.center),
-                body_rotation: match &node.body_rotation {
-                    Some(m) => Some(matrix_f32(m)),
-                    None => None,
-                },
-            };
-            k += 1;
-        }
-        Tree { nodes, gravity: vector_f32(&self.gravity) }
     }
 }
 
@@ -404,70 +302,3 @@ const fn matrix_unless_identity(m: M) -> Option<Matrix3<f64>> {
         m[0][0], m[0][1], m[0][2], m[1][0], m[1][1], m[1][2], m[2][0], m[2][1], m[2][2],
     ))
 }
-
-const fn vector_f32(v: &Vector3<f64>) -> Vector3<f32> {
-    let [x, y, z] = v.data.0[0];
-    Vector3::new(x as f32, y as f32, z as f32)
-}
-
-const fn matrix_f32(m: &Matrix3<f64>) -> Matrix3<f32> {
-    // nalgebra stores columns.
-    let [x, y, z] = m.data.0;
-    Matrix3::new(
-        x[0] as f32,
-        y[0] as f32,
-        z[0] as f32,
-        x[1] as f32,
-        y[1] as f32,
-        z[1] as f32,
-        x[2] as f32,
-        y[2] as f32,
-        z[2] as f32,
-    )
-}
-
-/// What an array of nodes holds before it is filled.
-const EMPTY: Node<f64> = Node {
-    kind: JointKind::Fixed,
-    inboard: None,
-    position_start: 0,
-    velocity_start: 0,
-    offset: Vector3::new(0.0, 0.0, 0.0),
-    is_offset: false,
-    home_rotation: None,
-    inertia: RigidInertia {
-        mass: 0.0,
-        first_moment: Vector3::new(0.0, 0.0, 0.0),
-        rotational: SymmetricMatrix3 {
-            diagonal: Vector3::new(0.0, 0.0, 0.0),
-            off_diagonal: Vector3::new(0.0, 0.0, 0.0),
-        },
-    },
-    is_eccentric: false,
-    shape: InertiaShape::Full,
-    center: Vector3::new(0.0, 0.0, 0.0),
-    body_rotation: None,
-};
-
-/// The same in single precision.
-const EMPTY_F32: Node<f32> = Node {
-    kind: JointKind::Fixed,
-    inboard: None,
-    position_start: 0,
-    velocity_start: 0,
-    offset: Vector3::new(0.0, 0.0, 0.0),
-    is_offset: false,
-    home_rotation: None,
-    inertia: RigidInertia {
-        mass: 0.0,
-        first_moment: Vector3::new(0.0, 0.0, 0.0),
-        rotational: SymmetricMatrix3 {
-            diagonal: Vector3::new(0.0, 0.0, 0.0),
-            off_diagonal: Vector3::new(0.0, 0.0, 0.0),
-        },
-    },
-    is_eccentric: false,
-    shape: InertiaShape::Full,
-    center: Vector3::new(0.0, 0.0, 0.0),
-    body_rotation: None,
-};
