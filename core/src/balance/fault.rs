@@ -2,6 +2,7 @@
 
 /// Which input was not usable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Input {
     /// Position of the central body.
     Position,
@@ -19,6 +20,7 @@ pub enum Input {
 
 /// What a foot cannot do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum FootLimit {
     /// Pull on the ground, or press with less than the least force asked for.
     Pull,
@@ -30,6 +32,7 @@ pub enum FootLimit {
 
 /// Why [`tick`](super::tick) gave no torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Fault {
     /// An input is NaN or infinite.
     NotFinite(Input),

@@ -5,7 +5,8 @@
 //! state ─► leg kinematics ─► workspace dynamics ─► desired wrench ─► distribution ─► joint torques
 //!           (Alg. 4.1, 4.2)   (4.3, or fixed foot)  (4.4)             (4.5)           (4.6)
 //! ```
-//! [`tick`] runs all of it. The stages are public, each on the results of those before it.
+//! [`tick`] runs all of it; the stages are public, each on the results of those before it. Between it
+//! and the motors stands the [`Supervisor`].
 //!
 //! # One frame
 //! Everything is expressed in the frame of the central body ("frame 1"): its axes, and positions from
@@ -22,6 +23,7 @@ mod leg_jacobian;
 mod leg_kinematics;
 mod robot;
 mod state;
+mod supervisor;
 mod tick;
 mod workspace_dynamics;
 mod wrench_distribution;
@@ -35,6 +37,7 @@ pub use leg_jacobian::LegJacobian;
 pub use leg_kinematics::{CentralBody, LegKinematics, central_body, leg_kinematics};
 pub use robot::LeggedRobot;
 pub use state::{Reference, RobotState};
+pub use supervisor::{Mode, SafetyLimits, StopReason, Supervised, Supervisor};
 pub use tick::{Command, tick};
 pub use workspace_dynamics::{WorkspaceDynamics, big_base, fixed_foot_dynamics, fixed_foot_wrench};
 pub use wrench_distribution::{FootWrenches, wrench_distribution};

@@ -1,5 +1,6 @@
 //! What `run` says: as text for people, as JSON for programs.
 
+use super::run::Where;
 use crate::closed_loop::{Outcome, Peaks, Run, Scalar};
 use crate::experiments::printed_figures;
 use crate::record::Sample;
@@ -14,6 +15,8 @@ pub struct Report<'a> {
     pub scene: &'a Scene,
     /// Precision of the controller.
     pub scalar: Scalar,
+    /// Where the controller ran.
+    pub controller: Where,
     /// The run.
     pub run: &'a Run,
     /// The run in the other reading of the first instant.
@@ -126,7 +129,7 @@ fn tables(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
 
 /// The document of `--json`. Keys that have no meaning for a plant are null.
 pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
-    let Report { scene, scalar, run, other } = report;
+    let Report { scene, scalar, controller, run, other } = report;
     let peaks = Peaks::of(&run.samples);
     let last = run.samples.last();
     let peak_torque = peaks.map(|peaks| {
@@ -146,7 +149,7 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "step_s": scene.integrator.step_s,
         "duration_s": scene.duration_s,
         "scalar": scalar,
-        "controller": "host",
+        "controller": controller,
         "torques_from": scene.controller.torques_from,
         "steps": run.steps,
         "outcome": run.outcome,

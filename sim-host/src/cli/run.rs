@@ -3,11 +3,13 @@
 use super::report::{self, Report};
 use super::{RUN_FAILED, bad_input, say};
 use crate::chart::write_charts;
-use crate::closed_loop::{self, Run, Scalar};
+use crate::closed_loop::firmware::{Emulator, FirmwareController, LinkError, SerialPort, Target};
+use crate::closed_loop::{self, Controller, Run, Scalar};
 use crate::record::write_csv;
 use crate::scene::{Feet, IntegratorName, Scene, TorquesFrom, load};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -29,6 +31,15 @@ pub struct Options {
     /// Precision of the controller
     #[arg(long, value_enum, default_value = "f64")]
     scalar: Scalar,
+    /// Where the controller runs
+    #[arg(long, value_enum, default_value = "host")]
+    controller: Where,
+    /// With `--controller firmware`: the image to run in the emulator
+    #[arg(long, value_name = "ELF", conflicts_with = "port")]
+    firmware: Option<PathBuf>,
+    /// With `--controller firmware`: the serial port of a board, in place of the emulator
+    #[arg(long)]
+    port: Option<String>,
     /// When torques set in, instead of the scene's
     #[arg(long, value_enum)]
     torques_from: Option<TorquesFrom>,
@@ -40,22 +51,50 @@ pub struct Options {
     json: bool,
 }
 
+/// Where the controller runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Where {
+    /// In this process.
+    Host,
+    /// On the target: in the emulator, or on a board.
+    Firmware,
+}
+
+/// The image that `cargo xtask firmware` leaves.
+const FIRMWARE: &str =
+    concat!(env!("CARGO_MANIFEST_DIR"), "/../target/firmware/surefoot-firmware-emulation.elf");
+
 /// Runs the scene and reports.
 pub fn run(options: &Options) -> ExitCode {
     let scene = match scene(options) {
         Ok(scene) => scene,
         Err(message) => return bad_input(&message, options.json),
     };
-    let run = simulate(&scene, options.scalar);
-    let other = other_reading(&scene)
-        .map(|scene| (scene.controller.torques_from, simulate(&scene, options.scalar)));
+    let run = match simulate(&scene, options) {
+        Ok(run) => run,
+        Err(message) => return bad_input(&message, options.json),
+    };
+    let other = match other_reading(&scene)
+        .map(|scene| simulate(&scene, options).map(|run| (scene.controller.torques_from, run)))
+    {
+        None => None,
+        Some(Ok(other)) => Some(other),
+        Some(Err(message)) => return bad_input(&message, options.json),
+    };
 
     let folder = options.out.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
     let files = match write_files(&folder, &scene, &run) {
         Ok(files) => files,
         Err(message) => return bad_input(&message, options.json),
     };
-    let report = Report { scene: &scene, scalar: options.scalar, run: &run, other: other.as_ref() };
+    let report = Report {
+        scene: &scene,
+        scalar: options.scalar(),
+        controller: options.controller,
+        run: &run,
+        other: other.as_ref(),
+    };
     if options.json {
         say(&format!("{:#}\n", report::json(&report, &files)));
     } else {
@@ -67,6 +106,30 @@ pub fn run(options: &Options) -> ExitCode {
             eprintln!("failed at {:.4} s: {}", failure.time_s, failure.place);
             ExitCode::from(RUN_FAILED)
         }
+    }
+}
+
+impl Options {
+    /// The target computes in single precision.
+    fn scalar(&self) -> Scalar {
+        match self.controller {
+            Where::Host => self.scalar,
+            Where::Firmware => Scalar::F32,
+        }
+    }
+
+    fn controller(&self, scene: &Scene) -> Result<Box<dyn Controller>, LinkError> {
+        if self.controller == Where::Host {
+            return Ok(closed_loop::controller(scene, self.scalar));
+        }
+        let target = match &self.port {
+            Some(port) => Target::connect(SerialPort::open(port)?)?,
+            None => {
+                let image = self.firmware.as_deref().unwrap_or(Path::new(FIRMWARE));
+                Target::connect(Emulator::start(image, &std::env::temp_dir())?)?
+            }
+        };
+        Ok(Box::new(FirmwareController::new(target, scene)?))
     }
 }
 
@@ -102,19 +165,19 @@ fn other_reading(scene: &Scene) -> Option<Scene> {
 }
 
 /// Runs with a progress bar on stderr, which hides itself where that is no terminal.
-fn simulate(scene: &Scene, scalar: Scalar) -> Run {
+fn simulate(scene: &Scene, options: &Options) -> Result<Run, String> {
+    let mut controller = options.controller(scene).map_err(|error| error.to_string())?;
     let bar = ProgressBar::new((scene.duration_s * 1e3) as u64);
     // The template is constant and valid; were it not, the default style would do.
     if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} ms {eta}") {
         bar.set_style(style);
     }
     bar.set_message(scene.name.clone());
-    let mut controller = closed_loop::controller(scene, scalar);
     let run = closed_loop::run(scene, controller.as_mut(), &mut |time| {
         bar.set_position((time * 1e3) as u64);
     });
     bar.finish_and_clear();
-    run
+    Ok(run)
 }
 
 fn write_files(folder: &Path, scene: &Scene, run: &Run) -> Result<Vec<PathBuf>, String> {

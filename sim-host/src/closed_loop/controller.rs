@@ -1,12 +1,13 @@
 //! Controllers on the host.
 
+use super::firmware::LinkError;
 use crate::plant::PlantState;
 use crate::scene::{Scene, Workspace};
 use nalgebra::Vector3;
 use serde::Serialize;
 use surefoot::Real;
 use surefoot::balance::{
-    self, Fault, Gains, LeggedRobot, Reference, RobotState, WorkspaceForm, tick,
+    self, Fault, Gains, LeggedRobot, Reference, RobotState, StopReason, WorkspaceForm, tick,
 };
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, SymmetricMatrix3, Twist};
@@ -42,8 +43,44 @@ pub trait Controller {
     /// One tick.
     ///
     /// # Errors
-    /// The controller's fault.
-    fn tick(&mut self, state: &PlantState) -> Result<Commanded, Fault>;
+    /// Why there are no torques.
+    fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure>;
+}
+
+/// Why a controller gave no torques.
+#[derive(Debug, thiserror::Error)]
+pub enum ControlFailure {
+    /// The tick's fault.
+    #[error("{0}")]
+    Fault(Fault),
+    /// The target's supervisor has stopped the robot.
+    #[error("the target has stopped: {0}")]
+    Stopped(StopReason),
+    /// The link to the target.
+    #[error("{0}")]
+    Link(#[from] LinkError),
+}
+
+impl ControlFailure {
+    /// A word for programs.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Fault(_) => "controller-fault",
+            Self::Stopped(_) => "target-stopped",
+            Self::Link(_) => "link",
+        }
+    }
+
+    /// What to try.
+    pub fn advice(&self) -> &'static str {
+        match self {
+            Self::Fault(_) | Self::Stopped(StopReason::Tick(_)) => {
+                "start with bent knees, and keep the set point within the legs' reach"
+            }
+            Self::Stopped(_) => "see the target's log; its limits are in its supervisor",
+            Self::Link(_) => "check the cable and the firmware's version, or the emulator's output",
+        }
+    }
 }
 
 /// The core's controller, run on the host in precision `T`.
@@ -86,7 +123,7 @@ impl<T: Real> HostController<T> {
 }
 
 /// What ideal sensors read, in precision `T`.
-fn measured<T: Real>(state: &PlantState) -> RobotState<T, 2> {
+pub fn measured<T: Real>(state: &PlantState) -> RobotState<T, 2> {
     let p: [T; 19] = state.positions.map(T::of);
     let v: [T; 18] = state.velocities.map(T::of);
     let leg = |all: &[T], leg: usize| std::array::from_fn(|i| all[6 * leg + i]);
@@ -100,8 +137,9 @@ fn measured<T: Real>(state: &PlantState) -> RobotState<T, 2> {
 }
 
 impl<T: Real> Controller for HostController<T> {
-    fn tick(&mut self, state: &PlantState) -> Result<Commanded, Fault> {
-        let command = tick(&self.controller, &measured(state), &self.reference)?;
+    fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
+        let command = tick(&self.controller, &measured(state), &self.reference)
+            .map_err(ControlFailure::Fault)?;
         let [left, right] = command.joint_torques;
         Ok(Commanded {
             torques: std::array::from_fn(|i| {

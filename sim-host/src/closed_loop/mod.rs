@@ -2,9 +2,12 @@
 
 mod controller;
 mod events;
+pub mod firmware;
 mod outcome;
 mod run;
 
-pub use controller::{Commanded, Controller, HostController, Scalar, controller};
+pub use controller::{
+    Commanded, ControlFailure, Controller, HostController, Scalar, controller, measured,
+};
 pub use outcome::{Failure, Outcome, Peak, Peaks};
 pub use run::{Run, run};

@@ -94,8 +94,11 @@ fn advance(
         if tick == ticks {
             break;
         }
+        let push = scene.push(time);
         for _ in 0..steps_per_tick {
-            plant.step(step, &command.torques).map_err(|failure| step_failure(time, failure))?;
+            plant
+                .step(step, &command.torques, push)
+                .map_err(|failure| step_failure(time, failure))?;
             run.steps += 1;
             if let Some(contacts) = plant.contacts() {
                 watch.look(run.steps as f64 * step, &contacts, &mut run.events);
@@ -114,11 +117,11 @@ fn command(
     time: f64,
 ) -> Result<Commanded, Failure> {
     if active {
-        return controller.tick(plant.state()).map_err(|fault| Failure {
-            kind: "controller-fault",
+        return controller.tick(plant.state()).map_err(|failure| Failure {
+            kind: failure.kind(),
             time_s: time,
-            place: fault.to_string(),
-            advice: "start with bent knees, and keep the set point within the legs' reach".into(),
+            place: failure.to_string(),
+            advice: failure.advice().into(),
         });
     }
     let p = &plant.state().positions;

@@ -9,6 +9,7 @@ pub use on_floor::OnFloor;
 pub use welded::Welded;
 
 use crate::contact::ContactState;
+use nalgebra::Vector3;
 use surefoot::dynamics::DynamicsFault;
 
 /// Coordinates of the biped.
@@ -70,11 +71,16 @@ pub trait Plant {
     fn state(&self) -> &PlantState;
 
     /// Advances by one step of `step_s` seconds under torques (N·m, left leg then right, hip to
-    /// foot).
+    /// foot), and a force on the central body's centre of mass (N, world frame), if there is one.
     ///
     /// # Errors
     /// A [`StepFailure`]; the state is then that before the step.
-    fn step(&mut self, step_s: f64, torques: &[f64; 12]) -> Result<(), StepFailure>;
+    fn step(
+        &mut self,
+        step_s: f64,
+        torques: &[f64; 12],
+        push: Option<Vector3<f64>>,
+    ) -> Result<(), StepFailure>;
 
     /// Contact states after the last step, by foot and corner; `None` where the plant has none.
     fn contacts(&self) -> Option<[[ContactState; 4]; 2]>;

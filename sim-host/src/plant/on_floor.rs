@@ -95,11 +95,19 @@ impl Plant for OnFloor {
         &self.state
     }
 
-    fn step(&mut self, step_s: f64, torques: &[f64; 12]) -> Result<(), StepFailure> {
+    fn step(
+        &mut self,
+        step_s: f64,
+        torques: &[f64; 12],
+        push: Option<Vector3<f64>>,
+    ) -> Result<(), StepFailure> {
         let PlantState { positions, velocities } = self.state;
         let relative = joint_poses(&TREE, &positions)?;
-        let touch = self
-            .touch(&body_poses(&TREE, &relative), &body_velocities(&TREE, &relative, &velocities));
+        let poses = body_poses(&TREE, &relative);
+        let mut touch = self.touch(&poses, &body_velocities(&TREE, &relative, &velocities));
+        if let Some(push) = push {
+            touch.wrenches[0].force += poses[0].rotation.tr_mul(&push);
+        }
         let accelerations = forward_dynamics(
             &TREE,
             &relative,

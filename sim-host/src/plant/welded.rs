@@ -13,7 +13,7 @@ use super::{
     NV, Observation, Plant, PlantState, StepFailure, check_velocities, generalized, retract,
 };
 use crate::contact::ContactState;
-use nalgebra::{Cholesky, SMatrix, SVector};
+use nalgebra::{Cholesky, SMatrix, SVector, Vector3};
 use surefoot::dynamics::{
     DynamicsFault, bias_forces, body_poses, body_velocities, joint_poses, mass_matrix,
 };
@@ -49,7 +49,12 @@ impl Plant for Welded {
         &self.state
     }
 
-    fn step(&mut self, step_s: f64, torques: &[f64; 12]) -> Result<(), StepFailure> {
+    fn step(
+        &mut self,
+        step_s: f64,
+        torques: &[f64; 12],
+        push: Option<Vector3<f64>>,
+    ) -> Result<(), StepFailure> {
         let PlantState { positions, velocities } = self.state;
         let relative = joint_poses(&TREE, &positions)?;
         let mut jacobian = SMatrix::<f64, WELDS, NV>::zeros();
@@ -67,8 +72,13 @@ impl Plant for Welded {
         let mass = Cholesky::new(mass)
             .ok_or(StepFailure::Dynamics(DynamicsFault::SingularInertia { joint: 0 }))?;
         let beta = SVector::from(velocities);
-        let force = SVector::from(generalized(torques))
+        let poses = body_poses(&TREE, &relative);
+        let mut force = SVector::from(generalized(torques))
             - SVector::from(bias_forces(&TREE, &relative, &velocities, None));
+        if let Some(push) = push {
+            let mut on_body = force.fixed_rows_mut::<3>(0);
+            on_body += poses[0].rotation.tr_mul(&push);
+        }
 
         // (2)
         let response = mass.solve(&jacobian.transpose());
@@ -79,7 +89,6 @@ impl Plant for Welded {
         let next: [f64; NV] = (beta + (free + response * lambda) * step_s).into();
         check_velocities(&next)?;
 
-        let poses = body_poses(&TREE, &relative);
         for (foot, body) in FEET.into_iter().enumerate() {
             let on_foot = lambda.fixed_rows::<3>(6 * foot);
             self.vertical[foot] = (poses[body].rotation * on_foot).z;

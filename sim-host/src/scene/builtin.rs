@@ -12,8 +12,12 @@ pub struct BuiltIn {
 }
 
 /// All built-in scenes.
-pub const BUILT_IN: [BuiltIn; 2] = [
+pub const BUILT_IN: [BuiltIn; 3] = [
     BuiltIn { name: "experiment-1", text: include_str!("../../scenes/experiment-1.toml") },
+    BuiltIn {
+        name: "experiment-1-pushes",
+        text: include_str!("../../scenes/experiment-1-pushes.toml"),
+    },
     BuiltIn {
         name: "experiment-1-welded",
         text: include_str!("../../scenes/experiment-1-welded.toml"),

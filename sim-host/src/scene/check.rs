@@ -66,6 +66,13 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
         let expected = format!("a unit quaternion, scalar first (its norm is {norm:.4})");
         return Err(wrong(scene, "set_point.orientation", set.orientation, expected));
     }
+    for (number, push) in scene.pushes.iter().enumerate() {
+        let finite = push.force_n.iter().chain([&push.at_s]).all(|x| x.is_finite());
+        if !(finite && push.duration_s.is_finite() && push.duration_s > 0.0) {
+            let field = format!("pushes[{number}]");
+            return Err(wrong(scene, &field, push, "finite numbers, and a duration above zero"));
+        }
+    }
     if let Workspace::BigBase(factor) = controller.workspace
         && !(factor.is_finite() && factor >= 1.0)
     {

@@ -34,6 +34,32 @@ pub struct Scene {
     pub controller: ControllerSettings,
     /// What the feet stand on.
     pub feet: Feet,
+    /// Pushes against the central body; none unless said.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pushes: Vec<Push>,
+}
+
+/// A force on the central body's centre of mass, for a while.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Push {
+    /// When it begins, s.
+    pub at_s: f64,
+    /// How long it lasts, s.
+    pub duration_s: f64,
+    /// World frame, N.
+    pub force_n: [f64; 3],
+}
+
+impl Scene {
+    /// The force of all pushes at a time, N; `None` where there is none.
+    pub fn push(&self, time_s: f64) -> Option<nalgebra::Vector3<f64>> {
+        self.pushes
+            .iter()
+            .filter(|push| (push.at_s..push.at_s + push.duration_s).contains(&time_s))
+            .map(|push| nalgebra::Vector3::from(push.force_n))
+            .reduce(|a, b| a + b)
+    }
 }
 
 /// Method and step.

@@ -22,7 +22,7 @@ fn a_free_robot_falls() {
         let mut plant = OnFloor::new(state, Floor::RUBBER, &SoleOutline::A);
         let before = energy(&plant);
         for _ in 0..(0.5 / h).round() as usize {
-            plant.step(h, &[0.0; 12]).expect("a regular motion");
+            plant.step(h, &[0.0; 12], None).expect("a regular motion");
         }
         assert_eq!(plant.contacts(), Some([[ContactState::Free; 4]; 2]));
         before - energy(&plant)
@@ -77,13 +77,13 @@ fn bad_numbers_are_failures() {
         for plant in &mut plants {
             let mut torques = [0.0; 12];
             torques[3] = bad;
-            let failure = plant.step(1e-4, &torques).expect_err("not a torque");
+            let failure = plant.step(1e-4, &torques, None).expect_err("not a torque");
             println!("{bad}: {failure}");
             assert_eq!(*plant.state(), good);
         }
         let broken = PlantState { velocities: [bad; NV], ..good };
         let mut plant = OnFloor::new(broken, Floor::RUBBER, &SoleOutline::A);
-        assert!(plant.step(1e-4, &[0.0; 12]).is_err());
+        assert!(plant.step(1e-4, &[0.0; 12], None).is_err());
         let mut broken = good;
         broken.positions[8] = bad;
         if !bad.is_finite() {

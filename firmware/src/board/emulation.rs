@@ -1,0 +1,118 @@
+//! In QEMU's netduinoplus2, by semihosting: costs in instructions, link over two named pipes or the
+//! UART, logs on QEMU's standard output.
+//!
+//! QEMU must run with `-icount shift=4`, where an instruction takes 16 ns of the machine's time. The
+//! debug unit's cycle counter stands still there; SysTick, at 168 MHz, counts 2.688 an instruction, and
+//! as that is more than two, the number of instructions can be told exactly.
+
+use super::stm32f405::Uart;
+use cortex_m::peripheral::SYST;
+use cortex_m::peripheral::syst::SystClkSource;
+use semihosting::fs::File;
+use semihosting::io::{Read, Write};
+
+/// Counts of SysTick in 1000 instructions: 16 ns · 168 MHz · 1000.
+const COUNTS: u64 = 2688;
+/// SysTick counts down from here, and over.
+const RELOAD: u32 = 0x00ff_ffff;
+
+/// Counts instructions.
+#[derive(Clone, Copy)]
+pub struct Counter(());
+
+impl Counter {
+    /// What costs are counted in.
+    pub const UNIT: surefoot_link::Counter = surefoot_link::Counter::Instructions;
+    /// Cost of a second: 16 ns each.
+    pub const PER_SECOND: u32 = 62_500_000;
+
+    /// Turns the counter on.
+    pub fn start(mut core: cortex_m::Peripherals) -> Self {
+        core.SYST.set_clock_source(SystClkSource::Core);
+        core.SYST.set_reload(RELOAD);
+        core.SYST.clear_current();
+        core.SYST.enable_counter();
+        Self(())
+    }
+
+    /// A moment.
+    #[inline(always)]
+    pub fn now(self) -> u32 {
+        SYST::get_current()
+    }
+
+    /// Cost since a moment, at most 6 million.
+    #[inline(always)]
+    pub fn since(self, begin: u32) -> u32 {
+        let counts = begin.wrapping_sub(SYST::get_current()) & RELOAD;
+        ((u64::from(counts) * 1000 + COUNTS / 2) / COUNTS) as u32
+    }
+
+    /// Cost of a time in seconds.
+    #[inline(always)]
+    pub fn cost_of(seconds: f32) -> u32 {
+        (seconds * Self::PER_SECOND as f32) as u32
+    }
+
+    /// Passes time.
+    pub fn wait(self, cost: u32) {
+        let begin = self.now();
+        while self.since(begin) < cost {}
+    }
+}
+
+/// Two pipes where the emulator's folder has them, and the UART otherwise.
+pub enum Link {
+    /// From the host, and to it.
+    Pipes(File, File),
+    /// As on hardware.
+    Uart(Uart),
+}
+
+impl Link {
+    /// Looks for the pipes.
+    pub fn start(uart: Uart) -> Self {
+        let from_host = File::open(c"to-target");
+        let to_host = File::create(c"to-host");
+        match (from_host, to_host) {
+            (Ok(from_host), Ok(to_host)) => Self::Pipes(from_host, to_host),
+            _ => Self::Uart(uart),
+        }
+    }
+
+    /// What has arrived. Over pipes the machine stands still until something does.
+    pub fn receive(&mut self, buffer: &mut [u8]) -> usize {
+        match self {
+            Self::Pipes(from_host, _) => match from_host.read(buffer) {
+                // Nobody is at the other end any more.
+                Ok(0) | Err(_) => exit(),
+                Ok(received) => received,
+            },
+            Self::Uart(uart) => uart.receive(buffer),
+        }
+    }
+
+    /// Sends all bytes.
+    pub fn send(&mut self, bytes: &[u8]) {
+        match self {
+            Self::Pipes(_, to_host) => {
+                if to_host.write_all(bytes).is_err() {
+                    exit();
+                }
+            }
+            Self::Uart(uart) => uart.send(bytes),
+        }
+    }
+}
+
+/// Ends the emulator.
+pub fn exit() -> ! {
+    semihosting::process::exit(0)
+}
+
+/// Logs.
+pub fn log(bytes: &[u8]) {
+    if let Ok(mut out) = semihosting::io::stdout() {
+        let _ = out.write_all(bytes);
+    }
+}

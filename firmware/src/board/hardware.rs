@@ -1,0 +1,85 @@
+//! On a real chip: cycles by the debug unit's counter, link by UART, logs by RTT.
+
+use super::stm32f405::Uart;
+use core::cell::UnsafeCell;
+use cortex_m::peripheral::DWT;
+use rtt_target::{ChannelMode, UpChannel, rtt_init};
+
+/// Clock of the core, Hz.
+const CORE_HZ: u32 = 168_000_000;
+
+/// Counts clock cycles.
+#[derive(Clone, Copy)]
+pub struct Counter(());
+
+impl Counter {
+    /// What costs are counted in.
+    pub const UNIT: surefoot_link::Counter = surefoot_link::Counter::Cycles;
+    /// Cost of a second.
+    pub const PER_SECOND: u32 = CORE_HZ;
+
+    /// Turns the counter on.
+    pub fn start(mut core: cortex_m::Peripherals) -> Self {
+        core.DCB.enable_trace();
+        core.DWT.enable_cycle_counter();
+        Self(())
+    }
+
+    /// A moment.
+    #[inline(always)]
+    pub fn now(self) -> u32 {
+        DWT::cycle_count()
+    }
+
+    /// Cost since a moment.
+    #[inline(always)]
+    pub fn since(self, begin: u32) -> u32 {
+        DWT::cycle_count().wrapping_sub(begin)
+    }
+
+    /// Cost of a time in seconds.
+    #[inline(always)]
+    pub fn cost_of(seconds: f32) -> u32 {
+        (seconds * CORE_HZ as f32) as u32
+    }
+}
+
+/// The UART.
+pub struct Link(Uart);
+
+impl Link {
+    /// Also opens the channel for logs.
+    pub fn start(uart: Uart) -> Self {
+        let channels = rtt_init! {
+            up: { 0: { size: 2048, mode: ChannelMode::NoBlockSkip, name: "defmt" } }
+        };
+        // SAFETY: before the first log message, and with interrupts off, as in all of `init`.
+        unsafe { *LOG.0.get() = Some(channels.up.0) };
+        Self(uart)
+    }
+
+    /// What has arrived, at least something after a while.
+    pub fn receive(&mut self, buffer: &mut [u8]) -> usize {
+        self.0.receive(buffer)
+    }
+
+    /// Sends all bytes.
+    pub fn send(&mut self, bytes: &[u8]) {
+        self.0.send(bytes);
+    }
+}
+
+struct Log(UnsafeCell<Option<UpChannel>>);
+
+// SAFETY: written by `init`, and used by idle alone.
+unsafe impl Sync for Log {}
+
+static LOG: Log = Log(UnsafeCell::new(None));
+
+/// Logs, or leaves out what finds no room.
+pub fn log(bytes: &[u8]) {
+    // SAFETY: only idle logs.
+    if let Some(channel) = unsafe { &mut *LOG.0.get() } {
+        channel.write(bytes);
+    }
+}

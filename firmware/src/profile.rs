@@ -1,0 +1,88 @@
+//! What each stage of a tick costs, one after the other, for one measurement.
+
+use crate::board::Counter;
+use crate::control::{ROBOT, configure, reference};
+use core::hint::black_box;
+use nalgebra::Vector3;
+use surefoot::balance::{
+    Controller, Fault, Reference, RobotState, WorkspaceForm, big_base, central_body,
+    desired_acceleration, fixed_foot_wrench, joint_torques, leg_kinematics, tick,
+    wrench_distribution,
+};
+use surefoot::spatial::Quaternion;
+use surefoot_link::{LEGS, SetPoint, Settings, Stages};
+
+/// The tick's constants, kept a second time for idle.
+pub struct Profile {
+    controller: Controller<'static, f32, LEGS>,
+    reference: Reference<f32>,
+}
+
+impl Profile {
+    /// With the tick's constants after a reset.
+    pub fn new() -> Self {
+        Self {
+            controller: Controller::new(&ROBOT),
+            reference: Reference::at_rest(Vector3::new(0.0, 0.0, 1.1), Quaternion::identity()),
+        }
+    }
+
+    /// As the tick is configured.
+    pub fn configure(&mut self, settings: &Settings) {
+        configure(&mut self.controller, settings);
+    }
+
+    /// As the tick is.
+    pub fn set_point(&mut self, pose: &SetPoint) {
+        self.reference = reference(pose);
+    }
+}
+
+/// Costs of all stages; zero from the stage on that finds the measurement faulty.
+#[inline(never)]
+pub fn stages(profile: &Profile, counter: Counter, state: &RobotState<f32, LEGS>) -> Stages {
+    let mut stages = Stages::default();
+    // A fault is an answer too, and ends the list.
+    let _ = each(profile, counter, black_box(state), &mut stages);
+    let begin = counter.now();
+    let _ = black_box(tick(&profile.controller, black_box(state), &profile.reference));
+    stages.tick = counter.since(begin);
+    stages
+}
+
+fn each(
+    profile: &Profile,
+    counter: Counter,
+    state: &RobotState<f32, LEGS>,
+    stages: &mut Stages,
+) -> Result<(), Fault> {
+    let Profile { controller, reference } = profile;
+    let mut begin = counter.now();
+    let mut stage = |cost: &mut u32| {
+        *cost = counter.since(begin);
+        begin = counter.now();
+    };
+    let central = black_box(central_body(&ROBOT, state))?;
+    stage(&mut stages.central_body);
+    let legs = black_box(leg_kinematics(&ROBOT, &central, state));
+    stage(&mut stages.leg_kinematics);
+    let desired =
+        black_box(desired_acceleration(&controller.gains, &central, state.position, reference))?;
+    stage(&mut stages.desired_acceleration);
+    let wrench = black_box(match controller.form {
+        WorkspaceForm::FixedFoot => {
+            fixed_foot_wrench(&ROBOT, &central, &legs, controller.singularity, desired.x)
+        }
+        WorkspaceForm::BigBase { factor } => {
+            big_base(&ROBOT, &central, &legs, factor).map(|dynamics| dynamics.wrench(desired.x))
+        }
+    })?;
+    stage(&mut stages.workspace_dynamics);
+    let feet = black_box(wrench_distribution(wrench, &legs)).ok_or(Fault::Overflow)?;
+    stage(&mut stages.wrench_distribution);
+    for (leg, foot) in legs.iter().zip(feet.in_central_axes) {
+        black_box(joint_torques(leg, foot));
+    }
+    stage(&mut stages.joint_torques);
+    Ok(())
+}

@@ -1,0 +1,157 @@
+//! The receiving end: bytes in, messages or reasons out.
+
+use crate::frame::{CHECKSUM, CHECKSUM_BYTES, FRAME, Header, VERSION};
+use core::marker::PhantomData;
+use heapless::Vec;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+/// Why a frame was rejected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rejected {
+    /// Too short for any message, or cut off in the middle.
+    Truncated,
+    /// Longer than any message.
+    TooLong,
+    /// Its checksum is wrong.
+    Corrupted,
+    /// The other end speaks another version.
+    Version(u8),
+    /// Its number is that of the last frame, or one before.
+    OutOfOrder,
+    /// Arrived whole, but is no message.
+    Malformed,
+}
+
+/// What has arrived so far, by kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Tally {
+    /// Messages.
+    pub accepted: u32,
+    /// Numbers that were left out between two messages.
+    pub lost: u32,
+    /// See [`Rejected::Truncated`].
+    pub truncated: u32,
+    /// See [`Rejected::TooLong`].
+    pub too_long: u32,
+    /// See [`Rejected::Corrupted`].
+    pub corrupted: u32,
+    /// See [`Rejected::Version`].
+    pub version: u32,
+    /// See [`Rejected::OutOfOrder`].
+    pub out_of_order: u32,
+    /// See [`Rejected::Malformed`].
+    pub malformed: u32,
+}
+
+/// Puts frames together again and takes messages `M` out of them.
+#[derive(Debug)]
+pub struct Receiver<M> {
+    bytes: Vec<u8, FRAME>,
+    /// The present frame is longer than a frame can be.
+    is_too_long: bool,
+    last: Option<u32>,
+    tally: Tally,
+    message: PhantomData<M>,
+}
+
+impl<M: DeserializeOwned> Receiver<M> {
+    /// A receiver that has heard nothing.
+    pub const fn new() -> Self {
+        Self {
+            bytes: Vec::new(),
+            is_too_long: false,
+            last: None,
+            tally: Tally {
+                accepted: 0,
+                lost: 0,
+                truncated: 0,
+                too_long: 0,
+                corrupted: 0,
+                version: 0,
+                out_of_order: 0,
+                malformed: 0,
+            },
+            message: PhantomData,
+        }
+    }
+
+    /// Takes one byte. At the end of a frame: its message, or why there is none.
+    pub fn take(&mut self, byte: u8) -> Option<Result<M, Rejected>> {
+        if byte != 0 {
+            self.is_too_long |= self.bytes.push(byte).is_err();
+            return None;
+        }
+        let result = if self.is_too_long { Err(Rejected::TooLong) } else { self.decode() };
+        self.bytes.clear();
+        self.is_too_long = false;
+        let count = match &result {
+            Ok(_) => &mut self.tally.accepted,
+            Err(Rejected::Truncated) => &mut self.tally.truncated,
+            Err(Rejected::TooLong) => &mut self.tally.too_long,
+            Err(Rejected::Corrupted) => &mut self.tally.corrupted,
+            Err(Rejected::Version(_)) => &mut self.tally.version,
+            Err(Rejected::OutOfOrder) => &mut self.tally.out_of_order,
+            Err(Rejected::Malformed) => &mut self.tally.malformed,
+        };
+        *count = count.saturating_add(1);
+        Some(result)
+    }
+
+    /// Counts so far.
+    pub fn tally(&self) -> Tally {
+        self.tally
+    }
+
+    fn decode(&mut self) -> Result<M, Rejected> {
+        let length = cobs::decode_in_place(&mut self.bytes).map_err(|_| Rejected::Truncated)?;
+        let frame = self.bytes.get(..length).ok_or(Rejected::Truncated)?;
+        let (plain, checksum) =
+            frame.split_last_chunk::<CHECKSUM_BYTES>().ok_or(Rejected::Truncated)?;
+        if CHECKSUM.checksum(plain) != u32::from_le_bytes(*checksum) {
+            return Err(Rejected::Corrupted);
+        }
+        let (header, rest) =
+            postcard::take_from_bytes::<Header>(plain).map_err(|_| Rejected::Malformed)?;
+        if header.version != VERSION {
+            return Err(Rejected::Version(header.version));
+        }
+        // Number 0 is a sender that has begun anew.
+        let last = self.last.filter(|_| header.sequence != 0);
+        let ahead = last.map_or(1, |last| header.sequence.wrapping_sub(last));
+        if ahead == 0 || ahead > u32::MAX / 2 {
+            return Err(Rejected::OutOfOrder);
+        }
+        let (message, rest) =
+            postcard::take_from_bytes::<M>(rest).map_err(|_| Rejected::Malformed)?;
+        if !rest.is_empty() {
+            return Err(Rejected::Malformed);
+        }
+        self.tally.lost = self.tally.lost.saturating_add(ahead - 1);
+        self.last = Some(header.sequence);
+        Ok(message)
+    }
+}
+
+impl<M: DeserializeOwned> Default for Receiver<M> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl core::fmt::Display for Rejected {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Truncated => f.write_str("a frame was cut short"),
+            Self::TooLong => write!(f, "a frame was longer than {FRAME} bytes"),
+            Self::Corrupted => f.write_str("a frame's checksum was wrong"),
+            Self::Version(theirs) => {
+                write!(f, "the other end speaks version {theirs} of the link, this one {VERSION}")
+            }
+            Self::OutOfOrder => f.write_str("a frame came twice or out of order"),
+            Self::Malformed => f.write_str("a frame held no message"),
+        }
+    }
+}
+
+impl core::error::Error for Rejected {}

@@ -1,0 +1,105 @@
+//! The controller on a target, in place of the host's.
+
+use super::{LinkError, Target};
+use crate::closed_loop::{Commanded, ControlFailure, Controller, measured};
+use crate::plant::PlantState;
+use crate::scene::{Scene, Workspace};
+use nalgebra::Vector3;
+use surefoot::balance::{Mode, SafetyLimits};
+use surefoot::spatial::{Quaternion, orientation_error};
+use surefoot_link::{Pacing, Sensors, SetPoint, Settings, ToTarget, Torques};
+
+/// A target that balances a scene's plant, in lock step with it.
+pub struct FirmwareController {
+    target: Target,
+    set_point: SetPoint,
+    /// What each tick has cost, in the target's unit.
+    costs: Vec<u32>,
+}
+
+impl FirmwareController {
+    /// Configures a target for a scene, and arms it.
+    ///
+    /// # Errors
+    /// A [`LinkError`].
+    pub fn new(mut target: Target, scene: &Scene) -> Result<Self, LinkError> {
+        let set_point = set_point(scene);
+        target.order("disarm", &ToTarget::Disarm)?;
+        target.order("configure", &ToTarget::Configure(settings(scene)))?;
+        target.order("set point", &ToTarget::SetPoint(set_point))?;
+        target.order("arm", &ToTarget::Arm)?;
+        Ok(Self { target, set_point, costs: Vec::new() })
+    }
+
+    /// What each tick has cost, in the target's unit.
+    pub fn costs(&self) -> &[u32] {
+        &self.costs
+    }
+
+    /// The target.
+    pub fn target(&mut self) -> &mut Target {
+        &mut self.target
+    }
+
+    /// One tick.
+    ///
+    /// # Errors
+    /// A [`LinkError`].
+    pub fn exchange(&mut self, state: &PlantState) -> Result<Torques, LinkError> {
+        let torques = self.target.tick(&Sensors::from(&measured(state)))?;
+        self.costs.push(torques.cost);
+        Ok(torques)
+    }
+}
+
+/// A scene's settings in single precision, with the biped's limits.
+pub fn settings(scene: &Scene) -> Settings {
+    let settings = &scene.controller;
+    let single = |gain: [f64; 3]| gain.map(|x| x as f32);
+    Settings {
+        period: (1.0 / settings.rate_hz) as f32,
+        pacing: Pacing::LockStep,
+        gains: [
+            single(settings.position_gain),
+            single(settings.velocity_gain),
+            single(settings.orientation_gain),
+            single(settings.angular_velocity_gain),
+        ],
+        big_base: match settings.workspace {
+            Workspace::FixedFoot => None,
+            Workspace::BigBase(factor) => Some(factor as f32),
+        },
+        limits: SafetyLimits::biped(),
+    }
+}
+
+/// A scene's set point in single precision.
+pub fn set_point(scene: &Scene) -> SetPoint {
+    SetPoint {
+        position: scene.set_point.position_m.map(|x| x as f32),
+        orientation: scene.set_point.orientation.map(|x| x as f32),
+    }
+}
+
+impl Controller for FirmwareController {
+    fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
+        let torques = self.exchange(state)?;
+        if torques.mode != Mode::Active
+            && let Some(reason) = torques.reason
+        {
+            return Err(ControlFailure::Stopped(reason));
+        }
+        let sensors = measured::<f32>(state);
+        let error = sensors.position - Vector3::from(self.set_point.position);
+        let desired = Quaternion::from_array(self.set_point.orientation);
+        let [left, right] = torques.joint_torques;
+        Ok(Commanded {
+            torques: std::array::from_fn(|i| f64::from(if i < 6 { left[i] } else { right[i - 6] })),
+            desired_wrench: torques.desired_wrench.map(f64::from),
+            position_error: [error.x, error.y, error.z].map(f64::from),
+            orientation_error: orientation_error(sensors.orientation, desired)
+                .to_array()
+                .map(f64::from),
+        })
+    }
+}

@@ -1,0 +1,232 @@
+//! Orders to a target, and its answers.
+
+use super::Transport;
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+use surefoot_link::{
+    Acknowledged, FRAME, FromTarget, Identity, Injection, Receiver, Rejected, Sender, Sensors,
+    Stages, Status, ToTarget, Torques,
+};
+
+/// How long a target may take for an answer. An emulated one on a busy machine takes milliseconds.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// What is wrong with a link.
+#[derive(Debug, thiserror::Error)]
+pub enum LinkError {
+    /// Something could not be started or opened.
+    #[error("{what}: {source}")]
+    Io {
+        /// What was tried.
+        what: String,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// No answer.
+    #[error("the target has not answered for {0:?}")]
+    Silent(Duration),
+    /// The emulator has ended.
+    #[error("the emulator has ended: {0}")]
+    Ended(String),
+    /// A frame of the target's was no good.
+    #[error("from the target: {0}")]
+    Rejected(Rejected),
+    /// The target does not do as told.
+    #[error("the target refuses {order}: {answer:?}")]
+    Refused {
+        /// The order.
+        order: &'static str,
+        /// Its answer.
+        answer: Acknowledged,
+    },
+    /// An answer to something else.
+    #[error("the target has answered {order} with something else")]
+    Unexpected {
+        /// The order.
+        order: &'static str,
+    },
+}
+
+/// A target on a link.
+pub struct Target {
+    transport: Box<dyn Transport>,
+    sender: Sender,
+    receiver: Receiver<FromTarget>,
+    arrived: VecDeque<Result<FromTarget, Rejected>>,
+    identity: Identity,
+}
+
+impl Target {
+    /// Says hello, and waits for the answer.
+    ///
+    /// # Errors
+    /// A [`LinkError`].
+    pub fn connect(transport: impl Transport + 'static) -> Result<Self, LinkError> {
+        let mut target = Self {
+            transport: Box::new(transport),
+            sender: Sender::new(),
+            receiver: Receiver::new(),
+            arrived: VecDeque::new(),
+            // Replaced by the first answer.
+            identity: Identity {
+                counter: surefoot_link::Counter::Cycles,
+                per_second: 0,
+                resets: 0,
+                mode_at_reset: None,
+            },
+        };
+        // An end of a frame first: whatever the target had heard half of is over.
+        target.send_raw(&[0])?;
+        target.send(&ToTarget::Hello)?;
+        target.identity = target.await_identity()?;
+        // A target that has just been reset says so by itself, and then answers too.
+        target.settle()?;
+        Ok(target)
+    }
+
+    /// Who it is.
+    pub fn identity(&self) -> Identity {
+        self.identity
+    }
+
+    /// Gives an order.
+    ///
+    /// # Errors
+    /// [`LinkError::Refused`], or what is wrong with the link.
+    pub fn order(&mut self, name: &'static str, order: &ToTarget) -> Result<(), LinkError> {
+        self.send(order)?;
+        match self.answer()? {
+            FromTarget::Acknowledged(Acknowledged::Done) => Ok(()),
+            FromTarget::Acknowledged(answer) => Err(LinkError::Refused { order: name, answer }),
+            _ => Err(LinkError::Unexpected { order: name }),
+        }
+    }
+
+    /// One tick in lock step.
+    ///
+    /// # Errors
+    /// A [`LinkError`].
+    pub fn tick(&mut self, sensors: &Sensors) -> Result<Torques, LinkError> {
+        self.send(&ToTarget::Sensors(*sensors))?;
+        self.torques()
+    }
+
+    /// One tick in lock step whose frame arrives as these bytes, the last of them 0.
+    ///
+    /// # Errors
+    /// A [`LinkError`].
+    pub fn tick_raw(&mut self, bytes: &[u8]) -> Result<Torques, LinkError> {
+        self.send_raw(bytes)?;
+        self.torques()
+    }
+
+    /// Counts and logs.
+    ///
+    /// # Errors
+    /// A [`LinkError`].
+    pub fn status(&mut self) -> Result<Status, LinkError> {
+        self.send(&ToTarget::Status)?;
+        loop {
+            match self.answer()? {
+                FromTarget::Status(status) => return Ok(status),
+                // A free-running target sends these by itself.
+                FromTarget::Torques(_) => {}
+                _ => return Err(LinkError::Unexpected { order: "status" }),
+            }
+        }
+    }
+
+    /// What the stages of a tick cost.
+    ///
+    /// # Errors
+    /// A [`LinkError`]; the target refuses unless it is in standby.
+    pub fn profile(&mut self, sensors: &Sensors) -> Result<Stages, LinkError> {
+        self.send(&ToTarget::Profile(*sensors))?;
+        match self.answer()? {
+            FromTarget::Stages(stages) => Ok(stages),
+            _ => Err(LinkError::Unexpected { order: "profile" }),
+        }
+    }
+
+    /// Resets an emulated target, and says hello again.
+    ///
+    /// # Errors
+    /// A [`LinkError`].
+    pub fn reset(&mut self, injection: Injection) -> Result<Identity, LinkError> {
+        self.send(&ToTarget::Inject(injection))?;
+        self.receiver = Receiver::new();
+        self.identity = self.await_identity()?;
+        self.sender = Sender::new();
+        Ok(self.identity)
+    }
+
+    /// The frame of a message, for those who want to spoil it.
+    pub fn frame(&mut self, message: &ToTarget) -> Vec<u8> {
+        let mut wire = [0; FRAME];
+        // A test of the link makes sure that every message fits.
+        self.sender.encode(message, &mut wire).unwrap_or_default().to_vec()
+    }
+
+    fn torques(&mut self) -> Result<Torques, LinkError> {
+        match self.answer()? {
+            FromTarget::Torques(torques) => Ok(torques),
+            FromTarget::Acknowledged(answer) => Err(LinkError::Refused { order: "tick", answer }),
+            _ => Err(LinkError::Unexpected { order: "tick" }),
+        }
+    }
+
+    fn send(&mut self, message: &ToTarget) -> Result<(), LinkError> {
+        let frame = self.frame(message);
+        self.send_raw(&frame)
+    }
+
+    fn send_raw(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
+        self.transport.send(bytes)
+    }
+
+    fn answer(&mut self) -> Result<FromTarget, LinkError> {
+        self.next(PATIENCE)?.map_err(LinkError::Rejected)
+    }
+
+    /// The next frame, good or bad.
+    fn next(&mut self, patience: Duration) -> Result<Result<FromTarget, Rejected>, LinkError> {
+        let begin = Instant::now();
+        loop {
+            if let Some(frame) = self.arrived.pop_front() {
+                return Ok(frame);
+            }
+            let left = patience.saturating_sub(begin.elapsed());
+            if left.is_zero() {
+                return Err(LinkError::Silent(patience));
+            }
+            for byte in self.transport.receive(left)? {
+                self.arrived.extend(self.receiver.take(byte));
+            }
+        }
+    }
+
+    /// Whatever came before the identity was for someone else.
+    fn await_identity(&mut self) -> Result<Identity, LinkError> {
+        let begin = Instant::now();
+        while begin.elapsed() < PATIENCE {
+            match self.next(PATIENCE)? {
+                Ok(FromTarget::Identity(identity)) => return Ok(identity),
+                Err(Rejected::Version(theirs)) => {
+                    return Err(LinkError::Rejected(Rejected::Version(theirs)));
+                }
+                _ => {}
+            }
+        }
+        Err(LinkError::Silent(PATIENCE))
+    }
+
+    /// Takes what is still on its way: a status has an answer of its own kind.
+    fn settle(&mut self) -> Result<(), LinkError> {
+        self.send(&ToTarget::Status)?;
+        loop {
+            if let Ok(FromTarget::Status(_)) = self.next(PATIENCE)? {
+                return Ok(());
+            }
+        }
+    }
+}
