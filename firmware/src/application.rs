@@ -203,15 +203,10 @@ impl Application {
         while let Some(record) = self.records.dequeue() {
             if record.mode != self.mode {
                 self.note_mode(record.mode);
-                let stopping = matches!(record.mode, Mode::Stopping { .. });
-                if let Some(reason) =
-                    record.reason.filter(|_| stopping || self.mode == Mode::Active)
-                {
-                    self.note_stop(LoggedFault {
-                        reset: self.log.resets,
-                        tick: record.tick,
-                        reason,
-                    });
+                let was_stopping = matches!(self.mode, Mode::Stopping { .. });
+                if let Some(reason) = record.reason.filter(|_| !was_stopping) {
+                    let (reset, tick) = (self.log.resets, record.tick);
+                    self.note_stop(LoggedFault { reset, tick, reason });
                 }
                 self.mode = record.mode;
             }
@@ -246,9 +241,6 @@ impl Application {
     }
 
     fn note_stop(&mut self, stop: LoggedFault) {
-        if self.log.stops.last() == Some(&stop) {
-            return;
-        }
         if self.log.stops.is_full() {
             self.log.stops.remove(0);
         }

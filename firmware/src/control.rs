@@ -84,6 +84,7 @@ pub struct Control {
     /// Cost that a tick may have.
     deadline: u32,
     overran: bool,
+    next_pacing: Option<(Pacing, f32)>,
     #[cfg(feature = "emulation")]
     delay: u32,
     tick: u32,
@@ -115,6 +116,7 @@ impl Control {
             supervisor: Supervisor::new(SafetyLimits::biped(), PERIOD),
             deadline: Counter::cost_of(PERIOD),
             overran: false,
+            next_pacing: None,
             #[cfg(feature = "emulation")]
             delay: 0,
             tick: 0,
@@ -167,6 +169,7 @@ impl Control {
         if self.records.enqueue(record).is_err() {
             self.dropped = self.dropped.saturating_add(1);
         }
+        self.change_pacing();
     }
 
     fn take(&mut self, order: Order) {
@@ -188,12 +191,18 @@ impl Control {
         configure(&mut self.controller, settings);
         self.supervisor = Supervisor::new(settings.limits, settings.period);
         self.deadline = Counter::cost_of(settings.period);
-        match settings.pacing {
-            Pacing::FreeRunning => {
+        self.next_pacing = Some((settings.pacing, settings.period));
+    }
+
+    /// Between ticks, as it may change the clock that costs are read from.
+    fn change_pacing(&mut self) {
+        match self.next_pacing.take() {
+            None => {}
+            Some((Pacing::LockStep, _)) => self.timer.halt(),
+            Some((Pacing::FreeRunning, period)) => {
                 self.watchdog.start();
-                self.timer.run(settings.period);
+                self.timer.run(period);
             }
-            Pacing::LockStep => self.timer.halt(),
         }
     }
 }

@@ -88,6 +88,13 @@ mod app {
         context.local.control.tick();
     }
 
+    /// QEMU's timers do not repeat; SysTick stands in.
+    #[cfg(feature = "emulation")]
+    #[task(binds = SysTick, priority = 4)]
+    fn due(_: due::Context) {
+        crate::board::due();
+    }
+
     #[task(binds = USART1, local = [uart], priority = 3)]
     fn uart(context: uart::Context) {
         context.local.uart.receive();

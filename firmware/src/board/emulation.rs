@@ -5,7 +5,8 @@
 //! debug unit's cycle counter stands still there; SysTick, at 168 MHz, counts 2.688 an instruction, and
 //! as that is more than two, the number of instructions can be told exactly.
 
-use super::stm32f405::Uart;
+use super::stm32f405::{Uart, device, since_due};
+use core::sync::atomic::{AtomicU32, Ordering};
 use cortex_m::peripheral::SYST;
 use cortex_m::peripheral::syst::SystClkSource;
 use semihosting::fs::File;
@@ -13,8 +14,56 @@ use semihosting::io::{Read, Write};
 
 /// Counts of SysTick in 1000 instructions: 16 ns · 168 MHz · 1000.
 const COUNTS: u64 = 2688;
-/// SysTick counts down from here, and over.
-const RELOAD: u32 = 0x00ff_ffff;
+/// SysTick, Hz.
+const SYSTICK_HZ: f32 = 168e6;
+/// SysTick counts down from here, and over: from its largest, or over one period.
+static RELOAD: AtomicU32 = AtomicU32::new(0x00ff_ffff);
+
+/// Makes ticks due. QEMU's TIM2 does not repeat, so SysTick does it: its exception calls [`due`].
+pub struct TickTimer {
+    counter: Counter,
+    is_running: bool,
+}
+
+impl TickTimer {
+    /// Not running yet.
+    pub fn new(_: device::TIM2, counter: Counter) -> Self {
+        Self { counter, is_running: false }
+    }
+
+    /// A tick every `period` seconds, of at most 99 ms.
+    pub fn run(&mut self, period: f32) {
+        let reload = ((period * SYSTICK_HZ) as u32).clamp(1, 0x00ff_ffff) - 1;
+        RELOAD.store(reload, Ordering::Relaxed);
+        // SAFETY: SysTick is the emulated board's clock, which `Counter` only reads.
+        let mut systick = unsafe { cortex_m::Peripherals::steal() }.SYST;
+        systick.set_reload(reload);
+        systick.clear_current();
+        systick.enable_interrupt();
+        self.is_running = true;
+    }
+
+    /// No ticks but `tick_now`'s. A free-running target stays one, so that there is nothing to stop.
+    pub fn halt(&mut self) {}
+
+    /// Takes note that a tick has begun.
+    ///
+    /// # Returns
+    /// The cost between its being due and now.
+    #[inline(always)]
+    pub fn acknowledge(&mut self) -> u32 {
+        if self.is_running {
+            self.counter.since(RELOAD.load(Ordering::Relaxed))
+        } else {
+            since_due(self.counter)
+        }
+    }
+}
+
+/// What SysTick's exception does.
+pub fn due() {
+    rtic::pend(device::Interrupt::TIM2);
+}
 
 /// Counts instructions.
 #[derive(Clone, Copy)]
@@ -29,7 +78,7 @@ impl Counter {
     /// Turns the counter on.
     pub fn start(mut core: cortex_m::Peripherals) -> Self {
         core.SYST.set_clock_source(SystClkSource::Core);
-        core.SYST.set_reload(RELOAD);
+        core.SYST.set_reload(RELOAD.load(Ordering::Relaxed));
         core.SYST.clear_current();
         core.SYST.enable_counter();
         Self(())
@@ -41,10 +90,12 @@ impl Counter {
         SYST::get_current()
     }
 
-    /// Cost since a moment, at most 6 million.
+    /// Cost since a moment, of at most 6 million, or one period of a free-running target.
     #[inline(always)]
     pub fn since(self, begin: u32) -> u32 {
-        let counts = begin.wrapping_sub(SYST::get_current()) & RELOAD;
+        let now = SYST::get_current();
+        let over = if now > begin { RELOAD.load(Ordering::Relaxed) + 1 } else { 0 };
+        let counts = begin + over - now;
         ((u64::from(counts) * 1000 + COUNTS / 2) / COUNTS) as u32
     }
 

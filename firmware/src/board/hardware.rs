@@ -1,12 +1,57 @@
-//! On a real chip: cycles by the debug unit's counter, link by UART, logs by RTT.
+//! On a real chip: ticks by TIM2, cycles by the debug unit's counter, link by UART, logs by RTT.
 
-use super::stm32f405::Uart;
+use super::stm32f405::{Uart, device, since_due};
 use core::cell::UnsafeCell;
 use cortex_m::peripheral::DWT;
 use rtt_target::{ChannelMode, UpChannel, rtt_init};
 
 /// Clock of the core, Hz.
 const CORE_HZ: u32 = 168_000_000;
+
+/// Clock of TIM2: APB1's, doubled (RM0090, §7.2).
+const TIMER_HZ: u32 = 84_000_000;
+
+/// Makes ticks due.
+pub struct TickTimer {
+    registers: device::TIM2,
+    counter: Counter,
+}
+
+impl TickTimer {
+    /// Not running yet.
+    pub fn new(registers: device::TIM2, counter: Counter) -> Self {
+        registers.dier().write(|w| w.uie().set_bit());
+        Self { registers, counter }
+    }
+
+    /// A tick every `period` seconds.
+    pub fn run(&mut self, period: f32) {
+        let reload = ((period * TIMER_HZ as f32) as u32).saturating_sub(1);
+        // SAFETY: TIM2 counts to any 32-bit number.
+        self.registers.arr().write(|w| unsafe { w.bits(reload) });
+        self.registers.cnt().reset();
+        self.registers.cr1().write(|w| w.cen().set_bit());
+    }
+
+    /// No ticks but `tick_now`'s.
+    pub fn halt(&mut self) {
+        self.registers.cr1().reset();
+    }
+
+    /// Takes note that a tick has begun.
+    ///
+    /// # Returns
+    /// The cost between its being due and now.
+    #[inline(always)]
+    pub fn acknowledge(&mut self) -> u32 {
+        self.registers.sr().reset();
+        if self.registers.cr1().read().cen().bit_is_clear() {
+            return since_due(self.counter);
+        }
+        // It began anew when the tick was due.
+        self.registers.cnt().read().bits().saturating_mul(CORE_HZ / TIMER_HZ)
+    }
+}
 
 /// Counts clock cycles.
 #[derive(Clone, Copy)]

@@ -12,9 +12,7 @@ mod emulation;
 mod hardware;
 
 #[cfg(feature = "emulation")]
-pub use emulation::{Counter, Link, exit, log};
+pub use emulation::{Counter, Link, TickTimer, due, exit, log};
 #[cfg(not(feature = "emulation"))]
-pub use hardware::{Counter, Link, log};
-pub use stm32f405::{
-    Board, ByteQueue, Motors, TickTimer, UartReceiver, Watchdog, device, restart, tick_now,
-};
+pub use hardware::{Counter, Link, TickTimer, log};
+pub use stm32f405::{Board, ByteQueue, Motors, UartReceiver, Watchdog, device, restart, tick_now};

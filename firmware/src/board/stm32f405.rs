@@ -2,12 +2,12 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | tick | TIM2, interrupt TIM2 |
+//! | tick | interrupt TIM2, of that timer on the chip |
 //! | link | USART1, PA9 out, PA10 in, 921600 baud, interrupt USART1 |
 //! | motor enable | PB0, high while torques may differ from zero |
 //! | clock | internal 16 MHz oscillator (±1 %) and PLL, so that any crystal will do |
 
-use super::{Counter, Link};
+use super::{Counter, Link, TickTimer};
 use core::sync::atomic::{AtomicU32, Ordering};
 use heapless::spsc::{Consumer, Producer, Queue};
 use surefoot_link::LEGS;
@@ -16,9 +16,6 @@ pub use stm32f4::stm32f405 as device;
 
 /// Received bytes on their way to idle: 2 ms of traffic at 921600 baud.
 pub type ByteQueue = Queue<u8, 256>;
-
-/// Clock of TIM2: APB1's, doubled (§7.2); in QEMU a timer's clock is 1 GHz.
-const TIMER_HZ: f32 = if cfg!(feature = "emulation") { 1e9 } else { 84e6 };
 
 /// Divides APB2's 84 MHz to 921600 baud: 91.15, by 16 at 1/16ths as §30.3.4 has it, is 0x05b.
 const BAUD_921600: u16 = 91;
@@ -64,10 +61,9 @@ impl Board {
         // SAFETY: the divider is a number, and any is allowed.
         USART1.brr().write(|w| unsafe { w.bits(BAUD_921600) });
         USART1.cr1().write(|w| w.ue().set_bit().te().set_bit().re().set_bit().rxneie().set_bit());
-        TIM2.dier().write(|w| w.uie().set_bit());
         let counter = Counter::start(core);
         Self {
-            timer: TickTimer { registers: TIM2, counter },
+            timer: TickTimer::new(TIM2, counter),
             counter,
             motors: Motors { port: GPIOB },
             watchdog: Watchdog { registers: IWDG },
@@ -91,7 +87,7 @@ fn start_clock(rcc: &device::RCC, flash: &device::FLASH) {
     while !rcc.cfgr().read().sws().is_pll() {}
 }
 
-/// When the next tick is due, in lock step.
+/// When the present tick was due, in lock step.
 static DUE: AtomicU32 = AtomicU32::new(0);
 
 /// Runs the tick at once: its interrupt has the highest priority.
@@ -101,39 +97,10 @@ pub fn tick_now(counter: Counter) {
     cortex_m::asm::isb();
 }
 
-/// Makes ticks due.
-pub struct TickTimer {
-    registers: device::TIM2,
-    counter: Counter,
-}
-
-impl TickTimer {
-    /// A tick every `period` seconds.
-    pub fn run(&mut self, period: f32) {
-        let reload = (period * TIMER_HZ) as u32;
-        // SAFETY: TIM2 counts to any 32-bit number.
-        self.registers.arr().write(|w| unsafe { w.bits(reload.saturating_sub(1)) });
-        self.registers.cnt().reset();
-        self.registers.cr1().write(|w| w.cen().set_bit());
-    }
-
-    /// No ticks but [`tick_now`]'s.
-    pub fn halt(&mut self) {
-        self.registers.cr1().reset();
-    }
-
-    /// Takes note that a tick has begun.
-    ///
-    /// # Returns
-    /// The cost between its being due and now.
-    #[inline(always)]
-    pub fn acknowledge(&mut self) -> u32 {
-        self.registers.sr().reset();
-        if self.registers.cr1().read().cen().bit_is_clear() {
-            return self.counter.since(DUE.load(Ordering::Relaxed));
-        }
-        Counter::cost_of(self.registers.cnt().read().bits() as f32 * (1.0 / TIMER_HZ))
-    }
+/// Cost since [`tick_now`].
+#[inline(always)]
+pub fn since_due(counter: Counter) -> u32 {
+    counter.since(DUE.load(Ordering::Relaxed))
 }
 
 /// Where torques go. This board has no drives: the pin says whether there may be torques, and the
@@ -195,7 +162,7 @@ pub struct Uart {
 }
 
 impl Uart {
-    /// What has arrived; sleeps until there is something.
+    /// What has arrived; sleeps until the next interrupt if there is nothing.
     pub fn receive(&mut self, buffer: &mut [u8]) -> usize {
         let mut received = 0;
         for place in buffer.iter_mut() {
@@ -203,7 +170,8 @@ impl Uart {
             *place = byte;
             received += 1;
         }
-        if received == 0 {
+        // An emulator that sleeps lets time go by the clock on the wall.
+        if received == 0 && cfg!(not(feature = "emulation")) {
             cortex_m::asm::wfi();
         }
         received

@@ -1,0 +1,110 @@
+//! A plant on the host with a target at its motors, in lock step, and every wire open to tampering.
+
+use std::path::PathBuf;
+use surefoot::balance::{Mode, SafetyLimits};
+use surefoot_link::{Sensors, ToTarget, Torques};
+use surefoot_sim::closed_loop::firmware::{Emulator, Target, set_point, settings};
+use surefoot_sim::closed_loop::measured;
+use surefoot_sim::plant::{OnFloor, Plant};
+use surefoot_sim::scene::{Feet, Scene, load};
+
+/// Images that `cargo xtask firmware` leaves.
+pub fn image(name: &str) -> PathBuf {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/firmware");
+    PathBuf::from(folder).join(format!("surefoot-firmware-{name}.elf"))
+}
+
+pub fn emulator(name: &str) -> Emulator {
+    Emulator::start(&image(name), env!("CARGO_TARGET_TMPDIR").as_ref()).expect("an emulator")
+}
+
+pub fn target() -> Target {
+    Target::connect(emulator("emulation")).expect("a firmware that answers")
+}
+
+/// Experiment 1 with a target in its loop.
+pub struct Bench {
+    pub scene: Scene,
+    pub plant: OnFloor,
+    pub target: Target,
+    pub limits: SafetyLimits<f32>,
+    time: f64,
+    torques: [f64; 12],
+}
+
+impl Bench {
+    /// Armed, before its first tick.
+    pub fn new(mut target: Target) -> Self {
+        let scene = load("experiment-1").expect("built in");
+        arm(&mut target, &scene);
+        let Feet::Floor { outline, floor } = &scene.feet else { panic!("it has a floor") };
+        let plant = OnFloor::new(scene.initial.state(), *floor, &outline.sole());
+        Self { scene, plant, target, limits: SafetyLimits::biped(), time: 0.0, torques: [0.0; 12] }
+    }
+
+    /// After `ticks` ordinary ticks, at the end of which it is active.
+    pub fn after(ticks: usize) -> Self {
+        let mut bench = Self::new(target());
+        for _ in 0..ticks {
+            assert_eq!(bench.tick(|_| {}).mode, Mode::Active);
+        }
+        bench
+    }
+
+    /// What the sensors read now.
+    pub fn sensors(&self) -> Sensors {
+        Sensors::from(&measured(self.plant.state()))
+    }
+
+    /// What they read at a scene's start.
+    pub fn sensors_of(scene: &Scene) -> Sensors {
+        Sensors::from(&measured(&scene.initial.state()))
+    }
+
+    /// One tick with sensors that read what `spoil` makes of it.
+    pub fn tick(&mut self, spoil: impl FnOnce(&mut Sensors)) -> Torques {
+        let mut sensors = self.sensors();
+        spoil(&mut sensors);
+        let torques = self.target.tick(&sensors).expect("an answer");
+        self.obey(&torques);
+        torques
+    }
+
+    /// One tick whose frame arrives as `spoil` makes it.
+    pub fn tick_with_frame(&mut self, spoil: impl FnOnce(Vec<u8>) -> Vec<u8>) -> Torques {
+        let frame = self.target.frame(&ToTarget::Sensors(self.sensors()));
+        let torques = self.target.tick_raw(&spoil(frame)).expect("an answer");
+        self.obey(&torques);
+        torques
+    }
+
+    /// The plant moves by one tick under these torques, which are within their limits.
+    fn obey(&mut self, torques: &Torques) {
+        for leg in torques.joint_torques {
+            for (torque, limit) in leg.iter().zip(self.limits.joint_torque) {
+                assert!(torque.abs() <= limit, "{torque} N·m, and the limit is {limit}");
+            }
+        }
+        let [left, right] = torques.joint_torques;
+        self.torques =
+            std::array::from_fn(|i| f64::from(if i < 6 { left[i] } else { right[i - 6] }));
+        let step = self.scene.integrator.step_s;
+        let steps = (1.0 / (self.scene.controller.rate_hz * step)).round() as usize;
+        for _ in 0..steps {
+            self.plant.step(step, &self.torques, self.scene.push(self.time)).expect("a motion");
+        }
+        self.time += 1.0 / self.scene.controller.rate_hz;
+    }
+}
+
+/// Configures a target for a scene, and arms it.
+pub fn arm(target: &mut Target, scene: &Scene) {
+    for (name, order) in [
+        ("disarm", ToTarget::Disarm),
+        ("configure", ToTarget::Configure(settings(scene))),
+        ("set point", ToTarget::SetPoint(set_point(scene))),
+        ("arm", ToTarget::Arm),
+    ] {
+        target.order(name, &order).expect("obeyed");
+    }
+}

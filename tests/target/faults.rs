@@ -1,0 +1,243 @@
+//! Fault injection: the safe state is reached within two ticks, the reason is logged, and torques
+//! stay within their limits (which the bench checks at every tick).
+
+use crate::bench::{Bench, arm};
+use surefoot::balance::{Fault, Mode, StopReason};
+use surefoot_link::{Injection, Sensors, ToTarget, Torques};
+
+/// The robot is rising then, with joint rates of up to 2 rad/s.
+const MIDDLE: usize = 60;
+
+/// Ticks that `fault` makes, until the target stops.
+fn stops(mut bench: Bench, mut fault: impl FnMut(&mut Bench) -> Torques) -> StopReason {
+    let mut before = bench.tick(|_| {});
+    for ticks in 1.. {
+        let torques = fault(&mut bench);
+        if torques.mode == Mode::Active {
+            before = torques;
+            assert!(ticks < 2, "still active two ticks after the fault");
+            continue;
+        }
+        let reason = torques.reason.expect("a reason");
+        fades(&mut bench, &before, &torques);
+        let status = bench.target.status().expect("an answer");
+        assert_eq!(status.mode, Mode::Stopped);
+        let last = status.log.stops.last().expect("a stop in the log");
+        assert_eq!((last.reason, last.tick), (reason, torques.tick));
+        return reason;
+    }
+    unreachable!()
+}
+
+/// In equal steps to zero, and there to stay, whatever is measured.
+fn fades(bench: &mut Bench, before: &Torques, first: &Torques) {
+    let ticks = i32::from(bench.limits.stop_ticks);
+    let mut now = *first;
+    for tick in 1..=ticks + 5 {
+        let share = (ticks - tick).max(0) as f32 / ticks as f32;
+        let (from, to) = (before.joint_torques, now.joint_torques);
+        for (from, to) in from.iter().flatten().zip(to.iter().flatten()) {
+            assert_eq!(*to, *from * share, "{tick} ticks after");
+        }
+        // The plant collapses meanwhile; its sensors are not to be believed.
+        let torques = bench.target.tick(&bench.sensors()).expect("an answer");
+        now = torques;
+    }
+    assert_eq!(now.mode, Mode::Stopped);
+}
+
+fn stops_at(spoil: impl Fn(&mut Sensors) + Copy) -> StopReason {
+    stops(Bench::after(MIDDLE), |bench| bench.tick(spoil))
+}
+
+#[test]
+fn numbers_that_are_none() {
+    for (bad, joint) in [(f32::NAN, 0), (f32::INFINITY, 3), (f32::NEG_INFINITY, 5)] {
+        let encoder = StopReason::Encoder { leg: 1, joint };
+        assert_eq!(stops_at(|sensors| sensors.joint_angles[1][joint] = bad), encoder);
+        assert_eq!(stops_at(|sensors| sensors.joint_rates[1][joint] = bad), encoder);
+    }
+    for bad in [f32::NAN, f32::INFINITY] {
+        for spoil in [
+            (|sensors: &mut Sensors, bad| sensors.position[1] = bad) as fn(&mut Sensors, f32),
+            |sensors, bad| sensors.orientation[0] = bad,
+            |sensors, bad| sensors.velocity[5] = bad,
+        ] {
+            let reason = stops_at(|sensors| spoil(sensors, bad));
+            assert!(matches!(reason, StopReason::Tick(Fault::NotFinite(_))), "{reason:?}");
+        }
+    }
+}
+
+#[test]
+fn numbers_out_of_range() {
+    let reason = stops_at(|sensors| sensors.joint_angles[0][2] = 1e30);
+    assert_eq!(reason, StopReason::Encoder { leg: 0, joint: 2 });
+    let reason = stops_at(|sensors| sensors.orientation = [0.5, 0.0, 0.0, 0.0]);
+    assert!(matches!(reason, StopReason::Tick(Fault::NotUnit(_))), "{reason:?}");
+    // A quarter turn, from one tick to the next.
+    let reason = stops_at(|sensors| {
+        sensors.orientation =
+            [std::f32::consts::FRAC_1_SQRT_2, std::f32::consts::FRAC_1_SQRT_2, 0.0, 0.0];
+    });
+    assert_eq!(reason, StopReason::Tilt);
+}
+
+/// An encoder that stands still while its joint moves: the angle alone, and angle and rate.
+#[test]
+fn a_frozen_encoder() {
+    let mut bench = Bench::after(MIDDLE);
+    let frozen = bench.sensors();
+    let rate = frozen.joint_rates[0][3].abs();
+    assert!(rate > 0.5, "the knee moves: {rate} rad/s");
+    bench.tick(|_| {});
+    let reason = stops(bench, |bench| {
+        bench.tick(|sensors| sensors.joint_angles[0][3] = frozen.joint_angles[0][3])
+    });
+    assert_eq!(reason, StopReason::Frozen { leg: 0, joint: 3 });
+
+    let mut bench = Bench::after(MIDDLE);
+    let mut held = None;
+    let reason = stops(
+        {
+            bench.tick(|_| {});
+            bench
+        },
+        |bench| {
+            let now = bench.sensors();
+            let (angle, rate) =
+                *held.get_or_insert((now.joint_angles[1][3], now.joint_rates[1][3]));
+            bench.tick(|sensors| {
+                sensors.joint_angles[1][3] = angle;
+                sensors.joint_rates[1][3] = rate;
+            })
+        },
+    );
+    assert_eq!(reason, StopReason::Frozen { leg: 1, joint: 3 });
+}
+
+/// One lost measurement is bridged by holding the torques; a second one stops the robot.
+#[test]
+fn lost_frames() {
+    let reason = stops(Bench::after(MIDDLE), |bench| bench.tick_with_frame(|_| vec![0]));
+    assert_eq!(reason, StopReason::Stale);
+
+    let mut bench = Bench::after(MIDDLE);
+    let before = bench.tick(|_| {});
+    let held = bench.tick_with_frame(|_| vec![0]);
+    assert_eq!((held.mode, held.joint_torques), (Mode::Active, before.joint_torques));
+    for _ in 0..10 {
+        assert_eq!(bench.tick(|_| {}).mode, Mode::Active, "one lost frame is no reason to stop");
+    }
+}
+
+/// Frames cut short, changed, and sent twice are no measurements, and are counted.
+#[test]
+fn spoilt_frames() {
+    let mut bench = Bench::after(MIDDLE);
+    let mut last = Vec::new();
+    bench.tick_with_frame(|frame| {
+        last.clone_from(&frame);
+        frame
+    });
+    assert_eq!(bench.tick_with_frame(|_| last.clone()).mode, Mode::Active);
+    bench.tick(|_| {});
+    bench.tick_with_frame(|frame| [&frame[..20], &[0]].concat());
+    bench.tick(|_| {});
+    bench.tick_with_frame(|mut frame| {
+        frame[30] ^= 0x11;
+        frame
+    });
+    assert_eq!(bench.tick(|_| {}).mode, Mode::Active);
+    let received = bench.target.status().expect("an answer").received;
+    assert_eq!(received.out_of_order, 1);
+    // Where a frame is cut decides whether it is its end or its checksum that is missing.
+    assert_eq!(received.truncated + received.corrupted, 3, "with the empty one of the greeting");
+    assert_eq!(
+        received.lost, 3,
+        "the two that were spoilt, and the one for which the old one came"
+    );
+    let reason = stops(bench, |bench| bench.tick_with_frame(|_| last.clone()));
+    assert_eq!(reason, StopReason::Stale);
+}
+
+#[test]
+fn an_overrun() {
+    let mut bench = Bench::after(MIDDLE);
+    // 3 ms more than a tick takes, of the 2 ms that it has.
+    let delay = 3 * bench.target.identity().per_second / 1000;
+    bench.target.order("delay", &ToTarget::Inject(Injection::Delay(delay))).expect("obeyed");
+    let late = bench.tick(|_| {});
+    assert!(late.cost > delay);
+    // The one before was the late one.
+    let before = late;
+    let torques = bench.tick(|_| {});
+    assert_eq!(torques.reason, Some(StopReason::Overrun));
+    fades(&mut bench, &before, &torques);
+    let status = bench.target.status().expect("an answer");
+    assert_eq!(status.overruns, 1);
+    assert_eq!(status.log.stops.last().map(|stop| stop.reason), Some(StopReason::Overrun));
+}
+
+/// Power fails in the middle of a run: after the reset torques are zero until someone arms the robot,
+/// and the log knows what happened, if the memory has kept it.
+#[test]
+fn a_brown_out() {
+    for (injection, is_kept) in [(Injection::Reset, true), (Injection::ResetAndForget, false)] {
+        let mut bench = Bench::after(MIDDLE);
+        // A stop in the log before.
+        let reason = bench.tick(|sensors| sensors.joint_rates[0][0] = f32::NAN).reason;
+        assert_eq!(reason, Some(StopReason::Encoder { leg: 0, joint: 0 }));
+        let scene = bench.scene.clone();
+        arm(&mut bench.target, &scene);
+        assert_eq!(bench.tick(|_| {}).mode, Mode::Active);
+
+        let identity = bench.target.reset(injection).expect("an answer");
+        for _ in 0..3 {
+            let torques = bench.target.tick(&bench.sensors()).expect("an answer");
+            assert_eq!(torques.mode, Mode::Standby);
+            assert_eq!(torques.joint_torques, [[0.0; 6]; 2]);
+        }
+        let log = bench.target.status().expect("an answer").log;
+        if is_kept {
+            assert_eq!(identity.resets, 2);
+            assert_eq!(identity.mode_at_reset, Some(Mode::Active));
+            assert_eq!(
+                log.stops.iter().map(|stop| Some(stop.reason)).collect::<Vec<_>>(),
+                [reason]
+            );
+        } else {
+            assert_eq!((identity.resets, identity.mode_at_reset), (1, None));
+            assert!(log.stops.is_empty());
+        }
+        arm(&mut bench.target, &scene);
+        assert_eq!(bench.target.tick(&bench.sensors()).expect("an answer").mode, Mode::Active);
+    }
+}
+
+/// Orders with numbers that make no sense, or at the wrong time, are refused, and change nothing.
+#[test]
+fn orders_that_make_no_sense() {
+    use surefoot_link::Acknowledged::{Busy, Invalid};
+    use surefoot_sim::closed_loop::firmware::{LinkError, set_point, settings};
+    let mut bench = Bench::after(5);
+    let good = settings(&bench.scene);
+    let refused = |bench: &mut Bench, order| match bench.target.order("it", &order) {
+        Err(LinkError::Refused { answer, .. }) => answer,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(refused(&mut bench, ToTarget::Configure(good)), Busy);
+    let mut pose = set_point(&bench.scene);
+    pose.position[2] = f32::NAN;
+    assert_eq!(refused(&mut bench, ToTarget::SetPoint(pose)), Invalid);
+    bench.target.order("disarm", &ToTarget::Disarm).expect("obeyed");
+    let mut bad = good;
+    bad.gains[2][1] = f32::INFINITY;
+    assert_eq!(refused(&mut bench, ToTarget::Configure(bad)), Invalid);
+    bad = good;
+    bad.period = 0.0;
+    assert_eq!(refused(&mut bench, ToTarget::Configure(bad)), Invalid);
+    let scene = bench.scene.clone();
+    arm(&mut bench.target, &scene);
+    assert_eq!(bench.tick(|_| {}).mode, Mode::Active);
+}
