@@ -1,10 +1,9 @@
 //! What runs when no tick does: frames, orders, replies, logs.
 
 use crate::board::{self, Counter, Link};
-use crate::control::{Order, Record};
+use crate::control::{Order, Receiving, Record, Sending};
 use crate::no_init::{self, stack_bytes};
 use crate::profile::{Profile, stages};
-use heapless::spsc::{Consumer, Producer};
 use surefoot::balance::{Mode, RobotState};
 use surefoot_link::{
     Acknowledged, FRAME, FaultLog, FromTarget, Identity, Injection, LEGS, LoggedFault, Pacing,
@@ -15,9 +14,9 @@ use surefoot_link::{
 pub struct Application {
     link: Link,
     counter: Counter,
-    orders: Producer<'static, Order>,
-    measurements: Producer<'static, RobotState<f32, LEGS>>,
-    records: Consumer<'static, Record>,
+    orders: Sending<Order>,
+    measurements: Sending<RobotState<f32, LEGS>>,
+    records: Receiving<Record>,
     receiver: Receiver<ToTarget>,
     sender: Sender,
     pacing: Pacing,
@@ -38,9 +37,9 @@ impl Application {
     pub fn new(
         link: Link,
         counter: Counter,
-        orders: Producer<'static, Order>,
-        measurements: Producer<'static, RobotState<f32, LEGS>>,
-        records: Consumer<'static, Record>,
+        orders: Sending<Order>,
+        measurements: Sending<RobotState<f32, LEGS>>,
+        records: Receiving<Record>,
     ) -> Self {
         let mut log = no_init::read();
         log.resets = log.resets.saturating_add(1);

@@ -59,15 +59,14 @@ pub struct Record {
     pub latency: u32,
 }
 
-/// Orders that a tick takes at most: as many as the queue holds.
-const ORDERS: usize = 4;
-
-/// To the tick.
-pub type OrderQueue = Queue<Order, { ORDERS + 1 }>;
-/// To the tick.
-pub type MeasurementQueue = Queue<RobotState<f32, LEGS>, 3>;
-/// From the tick.
-pub type RecordQueue = Queue<Record, 5>;
+/// Places in a queue, one of which stays empty. A tick takes at most as many orders as there can be.
+const PLACES: usize = 4;
+/// A queue to, or from, the tick.
+pub type TickQueue<T> = Queue<T, PLACES>;
+/// Its far end.
+pub type Sending<T> = Producer<'static, T, PLACES>;
+/// Its near end.
+pub type Receiving<T> = Consumer<'static, T, PLACES>;
 
 /// Everything that the tick owns.
 pub struct Control {
@@ -75,9 +74,9 @@ pub struct Control {
     timer: TickTimer,
     motors: Motors,
     watchdog: Watchdog,
-    orders: Consumer<'static, Order>,
-    measurements: Consumer<'static, RobotState<f32, LEGS>>,
-    records: Producer<'static, Record>,
+    orders: Receiving<Order>,
+    measurements: Receiving<RobotState<f32, LEGS>>,
+    records: Sending<Record>,
     controller: Controller<'static, f32, LEGS>,
     reference: Reference<f32>,
     supervisor: Supervisor<f32, LEGS>,
@@ -99,9 +98,9 @@ impl Control {
         timer: TickTimer,
         motors: Motors,
         watchdog: Watchdog,
-        orders: Consumer<'static, Order>,
-        measurements: Consumer<'static, RobotState<f32, LEGS>>,
-        records: Producer<'static, Record>,
+        orders: Receiving<Order>,
+        measurements: Receiving<RobotState<f32, LEGS>>,
+        records: Sending<Record>,
     ) -> Self {
         Self {
             counter,
@@ -132,7 +131,7 @@ impl Control {
     pub fn tick(&mut self) {
         let latency = self.timer.acknowledge();
         let begin = self.counter.now();
-        for _ in 0..ORDERS {
+        for _ in 0..PLACES {
             let Some(order) = self.orders.dequeue() else { break };
             self.take(order);
         }

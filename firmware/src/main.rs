@@ -40,7 +40,9 @@ mod profile;
 mod app {
     use crate::application::Application;
     use crate::board::{Board, ByteQueue, UartReceiver};
-    use crate::control::{Control, MeasurementQueue, OrderQueue, RecordQueue};
+    use crate::control::{Control, Order, Record, TickQueue};
+    use surefoot::balance::RobotState;
+    use surefoot_link::LEGS;
 
     #[shared]
     struct Shared {}
@@ -53,9 +55,9 @@ mod app {
     }
 
     #[init(local = [
-        orders: OrderQueue = OrderQueue::new(),
-        measurements: MeasurementQueue = MeasurementQueue::new(),
-        records: RecordQueue = RecordQueue::new(),
+        orders: TickQueue<Order> = TickQueue::new(),
+        measurements: TickQueue<RobotState<f32, LEGS>> = TickQueue::new(),
+        records: TickQueue<Record> = TickQueue::new(),
         bytes: ByteQueue = ByteQueue::new(),
     ])]
     fn init(context: init::Context) -> (Shared, Local) {

@@ -2,6 +2,8 @@
 //!
 //! - `test`: installs what is missing, runs every test, compiles core for the target and proves
 //!   there that the tick cannot panic.
+//! - `firmware`: the firmware's images.
+//! - `budget`: what the firmware takes on its target, against `tests/budgets.toml`.
 //! - `instructions`: instruction counts per call of each algorithm, repeatable to the last digit.
 //!
 //! Progress goes to stderr, results to stdout. Exit status: 0 all well, 1 something failed and was
@@ -9,6 +11,8 @@
 
 mod apt;
 mod arm_toolchain;
+mod budget;
+mod firmware;
 mod image;
 mod instructions;
 mod step;
@@ -30,6 +34,10 @@ struct Arguments {
 enum Chore {
     /// Run all tests, compile core for the target, and prove that the tick cannot panic there.
     Test(test::Options),
+    /// Build the firmware's images: for a board, and for the emulator.
+    Firmware,
+    /// Measure what the firmware takes on its target, and compare that with its budget.
+    Budget(budget::Options),
     /// Count the instructions of one call of each algorithm, by callgrind.
     Instructions(instructions::Options),
 }
@@ -37,6 +45,8 @@ enum Chore {
 fn main() -> ExitCode {
     let result = match Arguments::parse().chore {
         Chore::Test(options) => test::run(&options),
+        Chore::Firmware => firmware::run(),
+        Chore::Budget(options) => budget::run(&options),
         Chore::Instructions(options) => instructions::run(&options),
     };
     match result {

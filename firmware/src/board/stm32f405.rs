@@ -15,7 +15,8 @@ use surefoot_link::LEGS;
 pub use stm32f4::stm32f405 as device;
 
 /// Received bytes on their way to idle: 2 ms of traffic at 921600 baud.
-pub type ByteQueue = Queue<u8, 256>;
+pub type ByteQueue = Queue<u8, BYTES>;
+const BYTES: usize = 256;
 
 /// Divides APB2's 84 MHz to 921600 baud: 91.15, by 16 at 1/16ths as §30.3.4 has it, is 0x05b.
 const BAUD_921600: u16 = 91;
@@ -41,8 +42,8 @@ impl Board {
     pub fn start(
         device: device::Peripherals,
         core: cortex_m::Peripherals,
-        bytes_in: Producer<'static, u8>,
-        bytes_out: Consumer<'static, u8>,
+        bytes_in: Producer<'static, u8, BYTES>,
+        bytes_out: Consumer<'static, u8, BYTES>,
     ) -> Self {
         let device::Peripherals { RCC, FLASH, GPIOA, GPIOB, TIM2, USART1, IWDG, .. } = device;
         // QEMU has no clock tree: to wait for the PLL there is to wait for ever.
@@ -142,7 +143,7 @@ impl Watchdog {
 
 /// The receiving interrupt's end of the UART.
 pub struct UartReceiver {
-    bytes: Producer<'static, u8>,
+    bytes: Producer<'static, u8, BYTES>,
 }
 
 impl UartReceiver {
@@ -158,7 +159,7 @@ impl UartReceiver {
 /// Idle's end of the UART.
 pub struct Uart {
     registers: device::USART1,
-    bytes: Consumer<'static, u8>,
+    bytes: Consumer<'static, u8, BYTES>,
 }
 
 impl Uart {

@@ -1,11 +1,13 @@
 //! What a linked image of the target says of the code in it.
 
 mod call_sites;
-mod flash;
+mod memory;
 mod panicking;
+mod reachable;
 
-pub use flash::flash_bytes;
+pub use memory::{flash_bytes, ram_bytes};
 pub use panicking::{Panicking, panicking};
+pub use reachable::{function, reachable_panics};
 
 use anyhow::{Context, Result};
 use object::read::elf::ElfFile32;

@@ -49,7 +49,7 @@ pub(super) fn readable(symbol: &str) -> String {
 /// That is the panic handler (the image's, and the compiler's name for it), the module
 /// `core::panicking`, and the functions outside it that format a message and go there: all have
 /// names such as `slice_index_fail`, `unwrap_failed` or `panic_already_borrowed`.
-fn is_panicking(function: &str) -> bool {
+pub(super) fn is_panicking(function: &str) -> bool {
     let in_core = function.starts_with("core::") || function.starts_with("<core::");
     let says_so = |name: &str| {
         name.starts_with("panic") || name.ends_with("_fail") || name.ends_with("_failed")

@@ -1,6 +1,8 @@
 //! `cargo xtask test`: every test of the workspace, stage after stage.
 
+mod budget;
 mod doc_tests;
+mod firmware;
 mod panic_free;
 mod record;
 mod target;
@@ -33,11 +35,15 @@ enum Stage {
     Target,
     /// No panicking path in the tick, nor in the rest of core, on the target.
     PanicFree,
+    /// The firmware in the emulator: equal bits, bounded time, faults.
+    Firmware,
+    /// The firmware's instructions, stack, flash and RAM against their budget.
+    Budget,
 }
 
 impl Options {
     fn wants(&self, stage: Stage) -> bool {
-        let needs_target = matches!(stage, Stage::Target | Stage::PanicFree);
+        let needs_target = !matches!(stage, Stage::Tests | Stage::DocTests);
         (self.only.is_empty() || self.only.contains(&stage)) && !(needs_target && self.skip_target)
     }
 }
@@ -51,7 +57,8 @@ pub fn run(options: &Options) -> Result<()> {
     if options.wants(Stage::DocTests) {
         record.stage("doc-tests", doc_tests::run);
     }
-    if options.wants(Stage::Target) || options.wants(Stage::PanicFree) {
+    let on_target = [Stage::Target, Stage::PanicFree, Stage::Firmware, Stage::Budget];
+    if on_target.into_iter().any(|stage| options.wants(stage)) {
         let arm = record.stage("arm-toolchain", ArmToolchain::provide);
         if let Some(arm) = &arm {
             if options.wants(Stage::Target) {
@@ -59,6 +66,12 @@ pub fn run(options: &Options) -> Result<()> {
             }
             if options.wants(Stage::PanicFree) {
                 record.stage("panic-free", || panic_free::run(arm));
+            }
+            if options.wants(Stage::Firmware) {
+                record.stage("firmware", || firmware::run(arm));
+            }
+            if options.wants(Stage::Budget) {
+                record.stage("budget", || budget::run(arm));
             }
         }
     }

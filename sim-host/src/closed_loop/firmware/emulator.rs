@@ -27,6 +27,14 @@ impl Emulator {
     /// # Errors
     /// A [`LinkError`] that says what is missing.
     pub fn start(image: &Path, folder: &Path) -> Result<Self, LinkError> {
+        Self::start_with(image, folder, &[])
+    }
+
+    /// The same, with more arguments for QEMU.
+    ///
+    /// # Errors
+    /// As before.
+    pub fn start_with(image: &Path, folder: &Path, arguments: &[&str]) -> Result<Self, LinkError> {
         let error = |what: &dyn std::fmt::Display| {
             let what = what.to_string();
             move |source| LinkError::Io { what, source }
@@ -62,6 +70,7 @@ impl Emulator {
                 "none",
             ])
             .args(["-semihosting-config", "enable=on,target=native", "-icount", "shift=4"])
+            .args(arguments)
             .arg("-kernel")
             .arg(&image)
             .current_dir(&folder)

@@ -1,0 +1,225 @@
+//! `cargo xtask budget`: what the firmware takes on its target, and whether that is within
+//! `tests/budgets.toml`.
+
+mod cycles;
+mod trace;
+
+use crate::firmware::{Variant, provide_emulator};
+use crate::image::{self, reachable_panics};
+use crate::workspace;
+use anyhow::{Context, Result, bail, ensure};
+use clap::Args;
+use cycles::{Cycles, MODEL};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// How to say it.
+#[derive(Args)]
+pub struct Options {
+    /// Print one JSON document on stdout, and nothing else.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Limits, from the file.
+#[derive(Clone, Copy, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Budget {
+    tick_instructions: u64,
+    spread_percent: f64,
+    tick_cycles: u64,
+    stack_bytes: u64,
+    flash_bytes: u64,
+    ram_bytes: u64,
+    panic_paths: usize,
+}
+
+/// What the example `budget` measures over the link.
+#[derive(Deserialize)]
+struct Measured {
+    ticks: u64,
+    instructions: Instructions,
+    per_stage: BTreeMap<String, u64>,
+    per_stage_big_base: BTreeMap<String, u64>,
+    stack_bytes: u64,
+    traced_ticks: usize,
+}
+
+/// Instructions of a tick.
+#[derive(Clone, Copy, Deserialize, Serialize)]
+pub struct Instructions {
+    min: u64,
+    mean: f64,
+    /// Of the slowest tick.
+    pub max: u64,
+}
+
+/// The document of `--json`.
+#[derive(Serialize)]
+pub struct Report {
+    target: &'static str,
+    machine: String,
+    scalar: &'static str,
+    ticks: u64,
+    /// Of a tick, over all ticks.
+    pub instructions: Instructions,
+    spread_percent: f64,
+    per_stage: BTreeMap<String, u64>,
+    per_stage_big_base: BTreeMap<String, u64>,
+    cycles_estimate: Estimate,
+    stack_bytes: u64,
+    flash_bytes: u64,
+    ram_bytes: u64,
+    panic_paths: Vec<String>,
+    budget: Budget,
+}
+
+#[derive(Serialize)]
+struct Estimate {
+    max: u64,
+    microseconds_at_168_mhz: f64,
+    load_percent_at_1_khz: f64,
+    instructions_by_class: BTreeMap<&'static str, u64>,
+    model: &'static str,
+}
+
+impl Report {
+    /// What is over its limit.
+    pub fn broken(&self) -> Vec<String> {
+        let budget = &self.budget;
+        let mut broken = Vec::new();
+        let mut check = |what: &str, value: f64, limit: f64| {
+            if value > limit {
+                broken.push(format!("{what} {value} > {limit}"));
+            }
+        };
+        check("tick_instructions", self.instructions.max as f64, budget.tick_instructions as f64);
+        check("spread_percent", self.spread_percent, budget.spread_percent);
+        check("tick_cycles", self.cycles_estimate.max as f64, budget.tick_cycles as f64);
+        check("stack_bytes", self.stack_bytes as f64, budget.stack_bytes as f64);
+        check("flash_bytes", self.flash_bytes as f64, budget.flash_bytes as f64);
+        check("ram_bytes", self.ram_bytes as f64, budget.ram_bytes as f64);
+        check("panic_paths", self.panic_paths.len() as f64, budget.panic_paths as f64);
+        broken
+    }
+}
+
+/// Measures and prints; an error if something is over its limit.
+pub fn run(options: &Options) -> Result<()> {
+    crate::firmware::build(&crate::arm_toolchain::ArmToolchain::provide()?)?;
+    let report = measure()?;
+    if options.json {
+        println!("{}", serde_json::to_string_pretty(&report)?);
+    } else {
+        print(&report);
+    }
+    match report.broken() {
+        broken if broken.is_empty() => Ok(()),
+        broken => bail!("over budget: {}", broken.join("; ")),
+    }
+}
+
+/// Measures the images that have been built.
+pub fn measure() -> Result<Report> {
+    let machine = format!("{}, netduinoplus2, -icount shift=4", provide_emulator()?);
+    let path = workspace::root().join("tests/budgets.toml");
+    let text = std::fs::read_to_string(&path)
+        .with_context(|| format!("cannot read {}", path.display()))?;
+    let budget: Budget = toml::from_str(&text).with_context(|| format!("{}", path.display()))?;
+
+    let trace = workspace::root().join("target/firmware/trace.log");
+    let cargo = ["run", "--release", "--quiet", "--package", "surefoot-tests"];
+    let example = ["--features", "target", "--example", "budget", "--"];
+    let document =
+        workspace::cargo(cargo).args(example).args([trace.as_os_str()]).run_and_read()?;
+    let measured: Measured = serde_json::from_str(&document).context("the example's document")?;
+
+    let contents = std::fs::read(Variant::Emulation.path())?;
+    let emulated = image::parse(&contents)?;
+    let ticks = trace::ticks(&trace, image::function(&emulated, "TIM2")?, measured.traced_ticks)?;
+    std::fs::remove_file(&trace)?;
+    let Cycles { most, classes } = cycles::of(&ticks)?;
+
+    let contents = std::fs::read(Variant::Board.path())?;
+    let board = image::parse(&contents)?;
+    ensure!(
+        !reachable_panics(&board, "main")?.is_empty(),
+        "the search for panicking functions is broken: it finds none from the image's start, from \
+         where there are some"
+    );
+    let Instructions { mean, max, .. } = measured.instructions;
+    Ok(Report {
+        target: crate::arm_toolchain::TARGET,
+        machine,
+        scalar: "f32",
+        ticks: measured.ticks,
+        instructions: measured.instructions,
+        spread_percent: 100.0 * (max as f64 / mean - 1.0),
+        per_stage: measured.per_stage,
+        per_stage_big_base: measured.per_stage_big_base,
+        cycles_estimate: Estimate {
+            max: most,
+            microseconds_at_168_mhz: most as f64 / 168.0,
+            load_percent_at_1_khz: 100.0 * most as f64 / 168e3,
+            instructions_by_class: classes,
+            model: MODEL,
+        },
+        stack_bytes: measured.stack_bytes,
+        flash_bytes: image::flash_bytes(&board),
+        ram_bytes: image::ram_bytes(&board),
+        panic_paths: reachable_panics(&board, "TIM2")?,
+        budget,
+    })
+}
+
+/// As a table.
+pub fn print(report: &Report) {
+    let Report { budget, instructions, cycles_estimate, .. } = report;
+    println!("{} · {} · {}", report.target, report.machine, report.scalar);
+    let row = |what: &str, value: String, limit: String| {
+        println!("{what:<34}{value:>12}{limit:>12}");
+    };
+    row("", "now".into(), "budget".into());
+    row(
+        "slowest tick, instructions",
+        instructions.max.to_string(),
+        budget.tick_instructions.to_string(),
+    );
+    row("mean tick, instructions", format!("{:.1}", instructions.mean), String::new());
+    row(
+        "slowest above mean, %",
+        format!("{:.2}", report.spread_percent),
+        budget.spread_percent.to_string(),
+    );
+    row("tick, cycles (estimate)", cycles_estimate.max.to_string(), budget.tick_cycles.to_string());
+    row(
+        "  in µs at 168 MHz",
+        format!("{:.1}", cycles_estimate.microseconds_at_168_mhz),
+        String::new(),
+    );
+    row("stack, bytes", report.stack_bytes.to_string(), budget.stack_bytes.to_string());
+    row("flash, bytes", report.flash_bytes.to_string(), budget.flash_bytes.to_string());
+    row("RAM, bytes", report.ram_bytes.to_string(), budget.ram_bytes.to_string());
+    row(
+        "panicking functions in the tick",
+        report.panic_paths.len().to_string(),
+        budget.panic_paths.to_string(),
+    );
+    for function in &report.panic_paths {
+        println!("  {function}");
+    }
+    for (title, stages) in
+        [("fixed foot", &report.per_stage), ("big base", &report.per_stage_big_base)]
+    {
+        println!("stages, instructions ({title}, each alone)");
+        for (stage, cost) in stages {
+            println!("  {stage:<32}{cost:>12}");
+        }
+    }
+    println!("instructions by class");
+    for (class, count) in &cycles_estimate.instructions_by_class {
+        println!("  {class:<32}{count:>12}");
+    }
+    println!("cycles are an estimate: {}", cycles_estimate.model);
+    println!("over {} ticks", report.ticks);
+}

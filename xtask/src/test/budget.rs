@@ -1,0 +1,15 @@
+//! The firmware keeps its budget.
+
+use crate::arm_toolchain::ArmToolchain;
+use crate::budget::{self, measure};
+use crate::firmware;
+use anyhow::{Result, ensure};
+
+/// Builds, measures, and compares.
+pub fn run(arm: &ArmToolchain) -> Result<String> {
+    firmware::build(arm)?;
+    let report = measure()?;
+    budget::print(&report);
+    ensure!(report.broken().is_empty(), "over budget: {}", report.broken().join("; "));
+    Ok(format!("a tick takes {} instructions at most", report.instructions.max))
+}

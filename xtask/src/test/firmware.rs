@@ -1,0 +1,14 @@
+//! The firmware in the emulator.
+
+use crate::arm_toolchain::ArmToolchain;
+use crate::{firmware, workspace};
+use anyhow::Result;
+
+/// Builds the images and runs the tests that need them.
+pub fn run(arm: &ArmToolchain) -> Result<String> {
+    let emulator = firmware::provide_emulator()?;
+    firmware::build(arm)?;
+    let test = ["test", "--release", "--package", "surefoot-tests", "--features", "target"];
+    workspace::cargo(test).args(["--test", "target"]).run()?;
+    Ok(format!("firmware in {emulator}"))
+}
