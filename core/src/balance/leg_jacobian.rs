@@ -42,41 +42,57 @@ impl<T: Real> LegJacobian<T> {
     }
 
     #[inline(always)]
-    fn factor(mut rows: [[T; LEG]; LEG], singularity: T, inverse_reach: T) -> Option<Self> {
-        let mut order = [0, 1, 2, 3, 4, 5];
-        let mut inverse_pivots = [T::zero(); LEG];
-        for k in 0..LEG {
-            let mut best = k;
-            let mut size = T::zero();
-            for (i, row) in rows.iter().enumerate().skip(k) {
-                let candidate = row[k].abs();
-                if candidate > size {
-                    best = i;
-                    size = candidate;
-                }
-            }
-            // NaN compares as false.
-            if !(size > singularity) {
-                return None;
-            }
-            if let Ok([a, b]) = rows.get_disjoint_mut([k, best]) {
-                core::mem::swap(a, b);
-            }
-            if let Ok([a, b]) = order.get_disjoint_mut([k, best]) {
-                core::mem::swap(a, b);
-            }
-            let pivot_row = rows[k];
-            let inverse = T::one() / pivot_row[k];
-            inverse_pivots[k] = inverse;
-            for row in rows.iter_mut().skip(k + 1) {
-                let factor = row[k] * inverse;
-                row[k] = factor;
-                for j in k + 1..LEG {
-                    row[j] -= factor * pivot_row[j];
-                }
+    fn factor(rows: [[T; LEG]; LEG], singularity: T, inverse_reach: T) -> Option<Self> {
+        let mut lu = Self {
+            factors: rows,
+            order: [0, 1, 2, 3, 4, 5],
+            inverse_pivots: [T::zero(); LEG],
+            inverse_reach,
+        };
+        // One by one, so that all bounds of the loops inside are constants.
+        lu.eliminate::<0>(singularity)?;
+        lu.eliminate::<1>(singularity)?;
+        lu.eliminate::<2>(singularity)?;
+        lu.eliminate::<3>(singularity)?;
+        lu.eliminate::<4>(singularity)?;
+        lu.eliminate::<5>(singularity)?;
+        Some(lu)
+    }
+
+    /// Brings the largest of column `K` to the diagonal, and eliminates what is below it.
+    #[inline(always)]
+    fn eliminate<const K: usize>(&mut self, singularity: T) -> Option<()> {
+        let rows = &mut self.factors;
+        let mut best = K;
+        let mut size = rows[K][K].abs();
+        for i in K + 1..LEG {
+            let candidate = rows[i][K].abs();
+            if candidate > size {
+                best = i;
+                size = candidate;
             }
         }
-        Some(Self { factors: rows, order, inverse_pivots, inverse_reach })
+        // NaN compares as false.
+        if !(size > singularity) {
+            return None;
+        }
+        if let Ok([a, b]) = rows.get_disjoint_mut([K, best]) {
+            core::mem::swap(a, b);
+            if let Ok([a, b]) = self.order.get_disjoint_mut([K, best]) {
+                core::mem::swap(a, b);
+            }
+        }
+        let pivot_row = rows[K];
+        let inverse = T::one() / pivot_row[K];
+        self.inverse_pivots[K] = inverse;
+        for i in K + 1..LEG {
+            let factor = rows[i][K] * inverse;
+            rows[i][K] = factor;
+            for j in K + 1..LEG {
+                rows[i][j] -= factor * pivot_row[j];
+            }
+        }
+        Some(())
     }
 
     /// Joint rates `x` with `J x = V`, for a twist in frame 1's axes at the last joint.

@@ -178,25 +178,24 @@ impl<T: Real, const LEGS: usize> Supervisor<T, LEGS> {
         reference: &Reference<T>,
         overran: bool,
     ) -> Supervised<T, LEGS> {
-        let mut command = None;
-        if self.mode == Mode::Active {
-            match self.active(controller, measured, reference, overran) {
-                Ok(answer) => command = answer,
-                Err(reason) => {
-                    self.reason = Some(reason);
-                    self.mode = Mode::Stopping { left: self.limits.stop_ticks.max(1) };
-                }
-            }
+        let mut supervised = Supervised { joint_torques: [[T::zero(); LEG]; LEGS], command: None };
+        if self.mode == Mode::Active
+            && let Err(reason) =
+                self.active(controller, measured, reference, overran, &mut supervised.command)
+        {
+            self.reason = Some(reason);
+            self.mode = Mode::Stopping { left: self.limits.stop_ticks.max(1) };
+            supervised.command = None;
         }
-        let joint_torques = match self.mode {
-            Mode::Active => self.torques,
-            Mode::Standby | Mode::Stopped => [[T::zero(); LEG]; LEGS],
-            Mode::Stopping { left } => self.fade(left),
-        };
-        Supervised { joint_torques, command }
+        match self.mode {
+            Mode::Active => supervised.joint_torques = self.torques,
+            Mode::Standby | Mode::Stopped => {}
+            Mode::Stopping { left } => supervised.joint_torques = self.fade(left),
+        }
+        supervised
     }
 
-    /// The torques of a tick, into `self.torques`; those of the tick before where a measurement is
+    /// The torques of a tick, into `self.torques`, and its answer into `command`; those of the tick before where a measurement is
     /// missing.
     #[inline(always)]
     fn active(
@@ -205,7 +204,8 @@ impl<T: Real, const LEGS: usize> Supervisor<T, LEGS> {
         measured: Option<&RobotState<T, LEGS>>,
         reference: &Reference<T>,
         overran: bool,
-    ) -> Result<Option<Command<T, LEGS>>, StopReason> {
+        command: &mut Option<Command<T, LEGS>>,
+    ) -> Result<(), StopReason> {
         if overran {
             return Err(StopReason::Overrun);
         }
@@ -214,11 +214,11 @@ impl<T: Real, const LEGS: usize> Supervisor<T, LEGS> {
             // Over more than one period the check below would not hold.
             self.previous = None;
             let is_bridged = self.missed <= self.limits.bridged_ticks;
-            return if is_bridged { Ok(None) } else { Err(StopReason::Stale) };
+            return if is_bridged { Ok(()) } else { Err(StopReason::Stale) };
         };
         self.missed = 0;
         self.check_encoders(state)?;
-        let command = tick(controller, state, reference).map_err(StopReason::Tick)?;
+        let command = command.insert(tick(controller, state, reference).map_err(StopReason::Tick)?);
         if !(upright(&state.orientation) >= self.limits.least_upright) {
             return Err(StopReason::Tilt);
         }
@@ -231,7 +231,7 @@ impl<T: Real, const LEGS: usize> Supervisor<T, LEGS> {
                 }
             }
         }
-        Ok(Some(command))
+        Ok(())
     }
 
     /// Angles and rates within the encoders' range, and angles where the rates led them:

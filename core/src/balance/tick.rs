@@ -1,10 +1,11 @@
 //! One tick of the balance controller: measured state in, joint torques or a typed fault out.
 
+use super::leg_kinematics::walk_legs;
 use super::robot::LEG;
 use super::{
     CentralBody, Controller, Fault, Input, LegJacobian, LegKinematics, Reference, RobotState,
     WorkspaceForm, big_base, central_body, desired_acceleration, fixed_foot_wrench, joint_torques,
-    leg_kinematics, wrench_distribution,
+    wrench_distribution,
 };
 use crate::Real;
 use crate::spatial::{Quaternion, Twist, Wrench};
@@ -68,7 +69,8 @@ pub fn tick<T: Real, const LEGS: usize>(
     let robot = controller.robot;
     let central = central_body(robot, state)?;
     let desired = desired_acceleration(&controller.gains, &central, state.position, reference)?;
-    let legs = leg_kinematics(robot, &central, state);
+    let mut legs = [LegKinematics::empty(); LEGS];
+    walk_legs(robot, &central, state, &mut legs);
     let desired_wrench = desired_wrench(controller, &central, &legs, desired.x)?;
     let feet = wrench_distribution(desired_wrench, &legs).ok_or(Fault::Overflow)?;
 
