@@ -182,7 +182,7 @@ impl Application {
     #[cfg(feature = "emulation")]
     fn inject(&mut self, injection: Injection) -> Acknowledged {
         match injection {
-            Injection::Delay(cost) => return self.order(Order::Delay(cost)),
+            Injection::Delay(cost) => self.order(Order::Delay(cost)),
             Injection::Reset => board::restart(),
             Injection::ResetAndForget => {
                 no_init::forget();

@@ -69,6 +69,18 @@ impl ArmToolchain {
         }
     }
 
+    /// # Returns
+    /// The compiler's release, such as `1.95.0`.
+    pub fn release(&self) -> Result<String> {
+        let version = match self {
+            Self::Rustup => workspace::rustc(["--version"]),
+            Self::Debian { .. } => Step::new(DEBIAN_RUSTC, ["--version"]),
+        };
+        let said = version.read()?;
+        let release = said.split_whitespace().nth(1);
+        Ok(release.with_context(|| format!("`{version}` says {said:?}"))?.to_owned())
+    }
+
     fn from_rustup() -> Result<Self> {
         if !has_compiled_core()? {
             // Its own word, not its stack, where it fails.

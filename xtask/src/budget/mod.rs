@@ -4,6 +4,7 @@
 mod cycles;
 mod trace;
 
+use crate::arm_toolchain::ArmToolchain;
 use crate::firmware::{Variant, provide_emulator};
 use crate::image::{self, reachable_panics};
 use crate::workspace;
@@ -34,6 +35,9 @@ struct Budget {
     panic_paths: usize,
 }
 
+/// The table for compilers that have none of their own.
+const OTHER: &str = "other";
+
 /// What the example `budget` measures over the link.
 #[derive(Deserialize)]
 struct Measured {
@@ -59,6 +63,7 @@ pub struct Instructions {
 pub struct Report {
     target: &'static str,
     machine: String,
+    compiler: String,
     scalar: &'static str,
     ticks: u64,
     /// Of a tick, over all ticks.
@@ -106,8 +111,9 @@ impl Report {
 
 /// Measures and prints; an error if something is over its limit.
 pub fn run(options: &Options) -> Result<()> {
-    crate::firmware::build(&crate::arm_toolchain::ArmToolchain::provide()?)?;
-    let report = measure()?;
+    let arm = ArmToolchain::provide()?;
+    crate::firmware::build(&arm)?;
+    let report = measure(&arm)?;
     if options.json {
         println!("{}", serde_json::to_string_pretty(&report)?);
     } else {
@@ -119,13 +125,17 @@ pub fn run(options: &Options) -> Result<()> {
     }
 }
 
-/// Measures the images that have been built.
-pub fn measure() -> Result<Report> {
+/// Measures the images that have been built with this compiler.
+pub fn measure(arm: &ArmToolchain) -> Result<Report> {
     let machine = format!("{}, netduinoplus2, -icount shift=4", provide_emulator()?);
     let path = workspace::root().join("tests/budgets.toml");
     let text = std::fs::read_to_string(&path)
         .with_context(|| format!("cannot read {}", path.display()))?;
-    let budget: Budget = toml::from_str(&text).with_context(|| format!("{}", path.display()))?;
+    let budgets: BTreeMap<String, Budget> =
+        toml::from_str(&text).with_context(|| format!("{}", path.display()))?;
+    let release = arm.release()?;
+    let budget = budgets.get(&release).or_else(|| budgets.get(OTHER));
+    let budget = *budget.with_context(|| format!("{} has no table [{OTHER}]", path.display()))?;
 
     let trace = workspace::root().join("target/firmware/trace.log");
     let cargo = ["run", "--release", "--quiet", "--package", "surefoot-tests"];
@@ -151,6 +161,7 @@ pub fn measure() -> Result<Report> {
     Ok(Report {
         target: crate::arm_toolchain::TARGET,
         machine,
+        compiler: format!("rustc {release}, {arm}"),
         scalar: "f32",
         ticks: measured.ticks,
         instructions: measured.instructions,
@@ -176,6 +187,7 @@ pub fn measure() -> Result<Report> {
 pub fn print(report: &Report) {
     let Report { budget, instructions, cycles_estimate, .. } = report;
     println!("{} · {} · {}", report.target, report.machine, report.scalar);
+    println!("compiled by {}", report.compiler);
     let row = |what: &str, value: String, limit: String| {
         println!("{what:<34}{value:>12}{limit:>12}");
     };

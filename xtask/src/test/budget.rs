@@ -8,7 +8,7 @@ use anyhow::{Result, ensure};
 /// Builds, measures, and compares.
 pub fn run(arm: &ArmToolchain) -> Result<String> {
     firmware::build(arm)?;
-    let report = measure()?;
+    let report = measure(arm)?;
     budget::print(&report);
     ensure!(report.broken().is_empty(), "over budget: {}", report.broken().join("; "));
     Ok(format!("a tick takes {} instructions at most", report.instructions.max))
