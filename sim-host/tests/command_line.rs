@@ -229,3 +229,26 @@ fn results_go_where_they_are_sent() {
     assert_eq!(status, Some(2));
     assert!(stderr.contains("blocked"), "{stderr}");
 }
+
+/// A firmware that is not there, and a port that is none.
+#[test]
+fn a_missing_target_is_named() {
+    let folder = folder("target");
+    for (arguments, words) in [
+        (
+            ["run", "--controller", "firmware", "--firmware", "no-such.elf"],
+            ["no-such.elf", "cargo xtask firmware"],
+        ),
+        (
+            ["run", "--controller", "firmware", "--port", "/dev/no-such-port"],
+            ["/dev/no-such-port", "No such file"],
+        ),
+    ] {
+        let (status, stdout, stderr) = said(&surefoot(&folder, &arguments));
+        assert_eq!(status, Some(2), "{arguments:?}: {stderr}");
+        assert!(stdout.is_empty());
+        for word in words {
+            assert!(stderr.contains(word), "{stderr:?} has no {word:?}");
+        }
+    }
+}

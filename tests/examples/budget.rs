@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             return Err(format!("{name} failed: {}", failure.place).into());
         }
         // The first tick takes the order to arm, too.
-        costs.extend_from_slice(&controller.costs()[1..]);
+        costs.extend_from_slice(&controller.tick_costs()[1..]);
         stack = stack.max(controller.target().status()?.stack_bytes);
     }
     let scene = load(scenes[0])?;

@@ -62,7 +62,7 @@ fn plays_equally(name: &str) {
     assert_eq!(twins.compared, 12 * ticks);
 
     // The first tick also takes the order to arm, and has no measurement before.
-    let costs = &twins.target.costs()[1..];
+    let costs = &twins.target.tick_costs()[1..];
     let (least, most) = (costs.iter().min().expect("ticks"), costs.iter().max().expect("ticks"));
     let mean = costs.iter().map(|c| f64::from(*c)).sum::<f64>() / costs.len() as f64;
     println!("{name}: {least} to {most} instructions a tick, {mean:.1} on average");

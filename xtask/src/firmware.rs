@@ -61,6 +61,7 @@ pub fn build(arm: &ArmToolchain) -> Result<()> {
 
 /// Builds all images, and says where they are.
 pub fn run() -> Result<()> {
+    provide_emulator()?;
     build(&ArmToolchain::provide()?)?;
     for variant in Variant::ALL {
         println!("{}", variant.path().display());

@@ -1,7 +1,7 @@
 //! What `run` says: as text for people, as JSON for programs.
 
 use super::run::Where;
-use crate::closed_loop::{Outcome, Peaks, Run, Scalar};
+use crate::closed_loop::{Costs, Outcome, Peaks, Run, Scalar};
 use crate::experiments::printed_figures;
 use crate::record::Sample;
 use crate::scene::{Scene, TorquesFrom};
@@ -85,6 +85,17 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
         run.wall.as_secs_f64(),
         reading(scene.controller.torques_from),
     )?;
+    if let Some(costs) = &run.costs {
+        let Costs { unit, per_second, min, mean, max } = *costs;
+        write!(out, "  controller on the target: {min} to {max} {unit} a tick")?;
+        write!(out, ", {mean:.0} on average")?;
+        // What an emulator calls a second is its own affair.
+        if unit == "cycles" {
+            let slowest = 1e6 * f64::from(max) / f64::from(per_second);
+            write!(out, ", {slowest:.0} µs at most")?;
+        }
+        writeln!(out)?;
+    }
     if let Some(last) = run.samples.last() {
         writeln!(
             out,
@@ -150,6 +161,7 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "duration_s": scene.duration_s,
         "scalar": scalar,
         "controller": controller,
+        "target": run.costs,
         "torques_from": scene.controller.torques_from,
         "steps": run.steps,
         "outcome": run.outcome,

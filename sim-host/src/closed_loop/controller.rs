@@ -45,6 +45,26 @@ pub trait Controller {
     /// # Errors
     /// Why there are no torques.
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure>;
+
+    /// What its ticks have cost so far, if it runs on a target that counts.
+    fn costs(&self) -> Option<Costs> {
+        None
+    }
+}
+
+/// Costs of ticks on a target, from measurement to torques.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Costs {
+    /// `instructions` or `cycles`.
+    pub unit: &'static str,
+    /// Cost of a second.
+    pub per_second: u32,
+    /// Of the quickest tick.
+    pub min: u32,
+    /// Of all ticks.
+    pub mean: f64,
+    /// Of the slowest tick.
+    pub max: u32,
 }
 
 /// Why a controller gave no torques.

@@ -7,7 +7,7 @@ mod outcome;
 mod run;
 
 pub use controller::{
-    Commanded, ControlFailure, Controller, HostController, Scalar, controller, measured,
+    Commanded, ControlFailure, Controller, Costs, HostController, Scalar, controller, measured,
 };
 pub use outcome::{Failure, Outcome, Peak, Peaks};
 pub use run::{Run, run};

@@ -1,7 +1,7 @@
 //! One run of a scene.
 
 use super::events::Watch;
-use super::{Commanded, Controller, Failure, Outcome};
+use super::{Commanded, Controller, Costs, Failure, Outcome};
 use crate::plant::{OnFloor, Plant, StepFailure, Welded};
 use crate::record::{Event, Sample};
 use crate::scene::{Feet, Scene, TorquesFrom};
@@ -26,6 +26,8 @@ pub struct Run {
     pub constraint_max: f64,
     /// Time spent computing.
     pub wall: Duration,
+    /// What the controller's ticks have cost, where it ran on a target.
+    pub costs: Option<Costs>,
 }
 
 /// A central body this low (m), or tilted this far (cosine of 60°), has fallen.
@@ -43,6 +45,7 @@ pub fn run(scene: &Scene, controller: &mut dyn Controller, progress: &mut dyn Fn
         steps: 0,
         constraint_max: 0.0,
         wall: Duration::ZERO,
+        costs: None,
     };
     let result = match plant(scene) {
         Ok(mut plant) => advance(scene, plant.as_mut(), controller, progress, &mut run)
@@ -57,6 +60,7 @@ pub fn run(scene: &Scene, controller: &mut dyn Controller, progress: &mut dyn Fn
         run.outcome = if arrived { Outcome::Balanced } else { Outcome::Completed };
     }
     run.wall = started.elapsed();
+    run.costs = controller.costs();
     run
 }
 

@@ -3,5 +3,6 @@
 mod distribution;
 mod faults;
 mod orientation;
+mod supervisor;
 mod vectors;
 mod workspace;

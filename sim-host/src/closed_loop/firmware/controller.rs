@@ -1,13 +1,13 @@
 //! The controller on a target, in place of the host's.
 
 use super::{LinkError, Target};
-use crate::closed_loop::{Commanded, ControlFailure, Controller, measured};
+use crate::closed_loop::{Commanded, ControlFailure, Controller, Costs, measured};
 use crate::plant::PlantState;
 use crate::scene::{Scene, Workspace};
 use nalgebra::Vector3;
 use surefoot::balance::{Mode, SafetyLimits};
 use surefoot::spatial::{Quaternion, orientation_error};
-use surefoot_link::{Pacing, Sensors, SetPoint, Settings, ToTarget, Torques};
+use surefoot_link::{Counter, Pacing, Sensors, SetPoint, Settings, ToTarget, Torques};
 
 /// A target that balances a scene's plant, in lock step with it.
 pub struct FirmwareController {
@@ -32,7 +32,7 @@ impl FirmwareController {
     }
 
     /// What each tick has cost, in the target's unit.
-    pub fn costs(&self) -> &[u32] {
+    pub fn tick_costs(&self) -> &[u32] {
         &self.costs
     }
 
@@ -82,6 +82,21 @@ pub fn set_point(scene: &Scene) -> SetPoint {
 }
 
 impl Controller for FirmwareController {
+    fn costs(&self) -> Option<Costs> {
+        let identity = self.target.identity();
+        let sum: f64 = self.costs.iter().map(|cost| f64::from(*cost)).sum();
+        Some(Costs {
+            unit: match identity.counter {
+                Counter::Cycles => "cycles",
+                Counter::Instructions => "instructions",
+            },
+            per_second: identity.per_second,
+            min: *self.costs.iter().min()?,
+            mean: sum / self.costs.len() as f64,
+            max: *self.costs.iter().max()?,
+        })
+    }
+
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let torques = self.exchange(state)?;
         if torques.mode != Mode::Active
