@@ -5,6 +5,9 @@
 //!                 │        ▲ torques, held between ticks
 //!                 └──► Controller (host f32 or f64)
 //! ```
+//! Beside it stands chapter 2: [`mechanics`] (Lagrangians, discrete and not), [`newton`] (the one
+//! nonlinear solver) and [`integrators`].
+//!
 //! All of it in f64, but for a controller in f32. A plant allocates when it is built, never in a
 //! step.
 
@@ -13,6 +16,9 @@ pub mod cli;
 pub mod closed_loop;
 pub mod contact;
 pub mod experiments;
+pub mod integrators;
+pub mod mechanics;
+pub mod newton;
 pub mod plant;
 pub mod record;
 pub mod scene;

@@ -4,4 +4,5 @@ mod balance;
 mod closed_loop;
 mod documents;
 mod dynamics;
+mod mechanics;
 mod spatial;

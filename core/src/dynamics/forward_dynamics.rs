@@ -13,6 +13,7 @@
 //! The text's `Lᵀ P L` equals `Aᵀ (P − U D⁻¹ Uᵀ) A` by (3.57) and costs twice as much.
 
 use super::inverse_dynamics::{VelocityTerms, at_joint, carried, velocity_terms};
+use super::joint_block::JointBlock;
 use super::joint_motion::{JointMotion, own, own_one};
 use super::{DynamicsFault, JointPoses};
 use crate::Real;
@@ -147,7 +148,7 @@ pub fn forward_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
             }
             _ => {
                 let motion = JointMotion::new(node, &joint_poses.positions, &own(node, velocities));
-                let block = Block::new(&p[k], &motion)
+                let block = JointBlock::new(&p[k], &motion)
                     .ok_or(DynamicsFault::SingularInertia { joint: k })?;
                 let wrench = p[k].product(acceleration) + z[k];
                 let mut beta_dot = own(node, torques);
@@ -265,7 +266,7 @@ fn project_block<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     terms: VelocityTerms<T>,
 ) -> Option<(ArticulatedInertia<T>, Wrench<T>)> {
     let motion = JointMotion::new(node, &joint_poses.positions, &own(node, velocities));
-    let block = Block::new(p, &motion)?;
+    let block = JointBlock::new(p, &motion)?;
     // With D = L E Lᵀ, the columns of W = U L⁻ᵀ give U D⁻¹ Uᵀ = Σ w wᵀ / e.
     let mut excess = own(node, torques);
     for (u, h) in excess.iter_mut().zip(&motion.map) {
@@ -285,64 +286,4 @@ fn project_block<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     }
     let bias = *z + projected.product(terms.product) + force;
     Some((projected, bias))
-}
-
-/// `U` and the factors `D = L E Lᵀ` of a joint with up to six degrees of freedom.
-struct Block<T> {
-    images: [Wrench<T>; 6],
-    /// Strictly lower triangle of `L`.
-    lower: [[T; 6]; 6],
-    /// `E⁻¹`; zero beyond the joint's degrees of freedom.
-    inverse: [T; 6],
-    degrees_of_freedom: usize,
-}
-
-impl<T: Real> Block<T> {
-    /// `None` where `D` is not positive definite.
-    #[inline]
-    fn new(p: &ArticulatedInertia<T>, motion: &JointMotion<T>) -> Option<Self> {
-        let zero = T::zero();
-        let degrees_of_freedom = motion.degrees_of_freedom.min(6);
-        let mut images = [Wrench::zero(); 6];
-        let mut lower = [[zero; 6]; 6];
-        let mut inverse = [zero; 6];
-        let mut pivots = [zero; 6];
-        for i in 0..degrees_of_freedom {
-            images[i] = p.product(motion.map[i]);
-            let mut pivot = motion.map[i].power(images[i]);
-            for j in 0..i {
-                let mut sum = motion.map[i].power(images[j]);
-                for (m, e) in pivots.iter().enumerate().take(j) {
-                    sum -= lower[i][m] * lower[j][m] * *e;
-                }
-                let l = sum * inverse[j];
-                lower[i][j] = l;
-                pivot -= l * l * pivots[j];
-            }
-            if !(pivot > zero) {
-                return None;
-            }
-            pivots[i] = pivot;
-            inverse[i] = T::one() / pivot;
-        }
-        Some(Self { images, lower, inverse, degrees_of_freedom })
-    }
-
-    /// `x ← D⁻¹ x`.
-    #[inline]
-    fn solve(&self, x: &mut [T; 6]) {
-        // Said again for the compiler, which then leaves out the checks of bounds.
-        let degrees_of_freedom = self.degrees_of_freedom.min(6);
-        for i in 0..degrees_of_freedom {
-            for j in 0..i {
-                x[i] -= self.lower[i][j] * x[j];
-            }
-        }
-        for i in (0..degrees_of_freedom).rev() {
-            x[i] *= self.inverse[i];
-            for j in i + 1..degrees_of_freedom {
-                x[i] -= self.lower[j][i] * x[j];
-            }
-        }
-    }
 }

@@ -17,6 +17,7 @@ mod fault;
 mod forward_dynamics;
 mod forward_kinematics;
 mod inverse_dynamics;
+mod joint_block;
 mod joint_motion;
 mod joint_poses;
 mod mass_matrix;

@@ -3,8 +3,10 @@
 //! Results go to stdout, progress and messages to stderr. Exit status: 0 done, 1 the run failed for
 //! a stated reason, 2 bad usage or input.
 
+mod controller;
 mod list;
 mod report;
+mod reproduce;
 mod run;
 
 use clap::{Parser, Subcommand};
@@ -22,6 +24,8 @@ struct Cli {
 enum Command {
     /// Run a scene and report (default: experiment-1)
     Run(run::Options),
+    /// Reproduce the dissertation's tables: ours beside the printed figures
+    Reproduce(reproduce::Options),
     /// List scenes, integrators and robots
     List(list::Options),
 }
@@ -37,6 +41,7 @@ pub fn main() -> ExitCode {
     match Cli::parse().command {
         None => run::run(&run::Options::parse_from(["run"])),
         Some(Command::Run(options)) => run::run(&options),
+        Some(Command::Reproduce(options)) => reproduce::reproduce(&options),
         Some(Command::List(options)) => list::list(&options),
     }
 }

@@ -1,6 +1,6 @@
 //! What `run` says: as text for people, as JSON for programs.
 
-use super::run::Where;
+use super::controller::Place;
 use crate::closed_loop::{Costs, Outcome, Peaks, Run, Scalar};
 use crate::experiments::printed_figures;
 use crate::record::Sample;
@@ -16,7 +16,7 @@ pub struct Report<'a> {
     /// Precision of the controller.
     pub scalar: Scalar,
     /// Where the controller ran.
-    pub controller: Where,
+    pub controller: Place,
     /// The run.
     pub run: &'a Run,
     /// The run in the other reading of the first instant.
@@ -127,15 +127,20 @@ fn tables(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
         for row in rows {
             writeln!(
                 out,
-                "  {:<34}{:>12}{:>12}{:>8.1}%",
+                "  {:<34}{:>12}{:>12}{:>9}",
                 row.figure,
                 format!("{:.1} {}", row.ours, row.unit),
                 format!("{} {}", row.printed, row.unit),
-                100.0 * row.relative_difference,
+                percent(row.relative_difference),
             )?;
         }
     }
     Ok(())
+}
+
+/// A relative difference, if it means something.
+pub fn percent(difference: Option<f64>) -> String {
+    difference.map_or_else(|| "–".to_owned(), |difference| format!("{:.1}%", 100.0 * difference))
 }
 
 /// The document of `--json`. Keys that have no meaning for a plant are null.

@@ -1,15 +1,14 @@
 //! `surefoot run`
 
+use super::controller::ControllerOptions;
 use super::report::{self, Report};
 use super::{RUN_FAILED, bad_input, say};
 use crate::chart::write_charts;
-use crate::closed_loop::firmware::{Emulator, FirmwareController, LinkError, SerialPort, Target};
-use crate::closed_loop::{self, Controller, Run, Scalar};
+use crate::closed_loop::{self, Run};
 use crate::record::write_csv;
 use crate::scene::{Feet, IntegratorName, Scene, TorquesFrom, load};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
-use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -28,18 +27,8 @@ pub struct Options {
     /// Simulated seconds, instead of the scene's
     #[arg(long, allow_negative_numbers = true)]
     duration: Option<f64>,
-    /// Precision of the controller
-    #[arg(long, value_enum, default_value = "f64")]
-    scalar: Scalar,
-    /// Where the controller runs
-    #[arg(long, value_enum, default_value = "host")]
-    controller: Where,
-    /// With `--controller firmware`: the image to run in the emulator
-    #[arg(long, value_name = "ELF", conflicts_with = "port")]
-    firmware: Option<PathBuf>,
-    /// With `--controller firmware`: the serial port of a board, in place of the emulator
-    #[arg(long)]
-    port: Option<String>,
+    #[command(flatten)]
+    controller: ControllerOptions,
     /// When torques set in, instead of the scene's
     #[arg(long, value_enum)]
     torques_from: Option<TorquesFrom>,
@@ -50,20 +39,6 @@ pub struct Options {
     #[arg(long)]
     json: bool,
 }
-
-/// Where the controller runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
-#[serde(rename_all = "kebab-case")]
-pub enum Where {
-    /// In this process.
-    Host,
-    /// On the target: in the emulator, or on a board.
-    Firmware,
-}
-
-/// The image that `cargo xtask firmware` leaves.
-const FIRMWARE: &str =
-    concat!(env!("CARGO_MANIFEST_DIR"), "/../target/firmware/surefoot-firmware-emulation.elf");
 
 /// Runs the scene and reports.
 pub fn run(options: &Options) -> ExitCode {
@@ -90,8 +65,8 @@ pub fn run(options: &Options) -> ExitCode {
     };
     let report = Report {
         scene: &scene,
-        scalar: options.scalar(),
-        controller: options.controller,
+        scalar: options.controller.scalar(),
+        controller: options.controller.place,
         run: &run,
         other: other.as_ref(),
     };
@@ -106,30 +81,6 @@ pub fn run(options: &Options) -> ExitCode {
             eprintln!("failed at {:.4} s: {}", failure.time_s, failure.place);
             ExitCode::from(RUN_FAILED)
         }
-    }
-}
-
-impl Options {
-    /// The target computes in single precision.
-    fn scalar(&self) -> Scalar {
-        match self.controller {
-            Where::Host => self.scalar,
-            Where::Firmware => Scalar::F32,
-        }
-    }
-
-    fn controller(&self, scene: &Scene) -> Result<Box<dyn Controller>, LinkError> {
-        if self.controller == Where::Host {
-            return Ok(closed_loop::controller(scene, self.scalar));
-        }
-        let target = match &self.port {
-            Some(port) => Target::connect(SerialPort::open(port)?)?,
-            None => {
-                let image = self.firmware.as_deref().unwrap_or(Path::new(FIRMWARE));
-                Target::connect(Emulator::start(image, &std::env::temp_dir())?)?
-            }
-        };
-        Ok(Box::new(FirmwareController::new(target, scene)?))
     }
 }
 
@@ -166,7 +117,7 @@ fn other_reading(scene: &Scene) -> Option<Scene> {
 
 /// Runs with a progress bar on stderr, which hides itself where that is no terminal.
 fn simulate(scene: &Scene, options: &Options) -> Result<Run, String> {
-    let mut controller = options.controller(scene).map_err(|error| error.to_string())?;
+    let mut controller = options.controller.controller(scene).map_err(|error| error.to_string())?;
     let bar = ProgressBar::new((scene.duration_s * 1e3) as u64);
     // The template is constant and valid; were it not, the default style would do.
     if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} ms {eta}") {

@@ -1,0 +1,64 @@
+//! Where the controller runs, and in which precision.
+
+use crate::closed_loop::firmware::{Emulator, FirmwareController, LinkError, SerialPort, Target};
+use crate::closed_loop::{self, Controller, Scalar};
+use crate::scene::Scene;
+use clap::Args;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// Options of `run` about the controller.
+#[derive(Debug, Args)]
+pub struct ControllerOptions {
+    /// Precision of the controller on the host; the target's is f32
+    #[arg(long, value_enum, default_value = "f64")]
+    scalar: Scalar,
+    /// Where the controller runs
+    #[arg(long = "controller", value_enum, default_value = "host")]
+    pub place: Place,
+    /// With `--controller firmware`: the image to run in the emulator
+    #[arg(long, value_name = "ELF", conflicts_with = "port")]
+    firmware: Option<PathBuf>,
+    /// With `--controller firmware`: the serial port of a board, in place of the emulator
+    #[arg(long)]
+    port: Option<String>,
+}
+
+/// Where the controller runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Place {
+    /// In this process.
+    Host,
+    /// On the target: in the emulator, or on a board.
+    Firmware,
+}
+
+/// The image that `cargo xtask firmware` leaves.
+const FIRMWARE: &str =
+    concat!(env!("CARGO_MANIFEST_DIR"), "/../target/firmware/surefoot-firmware-emulation.elf");
+
+impl ControllerOptions {
+    /// The precision in effect.
+    pub fn scalar(&self) -> Scalar {
+        match self.place {
+            Place::Host => self.scalar,
+            Place::Firmware => Scalar::F32,
+        }
+    }
+
+    /// A controller for a scene, ready for its first tick.
+    pub fn controller(&self, scene: &Scene) -> Result<Box<dyn Controller>, LinkError> {
+        if self.place == Place::Host {
+            return Ok(closed_loop::controller(scene, self.scalar));
+        }
+        let target = match &self.port {
+            Some(port) => Target::connect(SerialPort::open(port)?)?,
+            None => {
+                let image = self.firmware.as_deref().unwrap_or(Path::new(FIRMWARE));
+                Target::connect(Emulator::start(image, &std::env::temp_dir())?)?
+            }
+        };
+        Ok(Box::new(FirmwareController::new(target, scene)?))
+    }
+}

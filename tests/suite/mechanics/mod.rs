@@ -1,0 +1,6 @@
+//! Chapter 2.
+
+mod convergence;
+mod equivalence;
+mod invariants;
+mod tables;
