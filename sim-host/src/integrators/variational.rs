@@ -26,6 +26,7 @@ pub struct Variational<S, const N: usize, const C: usize, const U: usize> {
     /// `p⁺` of the last step.
     p: [f64; N],
     mu: [f64; C],
+    time: f64,
     steps: u64,
     iterations: u64,
 }
@@ -59,7 +60,7 @@ where
     /// From a configuration on the manifold, its momentum, and a guess of its velocity.
     pub fn from_momentum(system: S, h: f64, x: [f64; N], p: [f64; N], velocity: [f64; N]) -> Self {
         const { assert!(U == N + C, "unknowns are coordinates and multipliers") }
-        Self { system, h, x, d: velocity, p, mu: [0.0; C], steps: 0, iterations: 0 }
+        Self { system, h, x, d: velocity, p, mu: [0.0; C], time: 0.0, steps: 0, iterations: 0 }
     }
 
     /// From a configuration on the manifold and its velocity, without spoiling the order.
@@ -96,8 +97,15 @@ where
     /// # Errors
     /// A [`StepError`]; the motion is then where it was.
     pub fn step(&mut self) -> Result<[f64; N], StepError> {
-        let Self { system, h, x, d, p, mu, .. } = &*self;
-        let h = *h;
+        self.step_by(self.h)
+    }
+
+    /// The same for a step of another length, which may be negative: the one-step form allows it.
+    ///
+    /// # Errors
+    /// As before.
+    pub fn step_by(&mut self, h: f64) -> Result<[f64; N], StepError> {
+        let Self { system, x, d, p, mu, .. } = &*self;
         let (_, g) = jacobian(x, |v| system.constraints(v));
         let start = std::array::from_fn(|i| if i < N { d[i] } else { mu[i - N] });
         // What residuals are differences of: momenta, and squares of coordinates.
@@ -126,9 +134,10 @@ where
         .map_err(|failure| StepError {
             step: self.steps,
             h,
-            time_s: self.steps as f64 * h,
+            time_s: self.time,
             failure,
         })?;
+        self.time += h;
         self.d = std::array::from_fn(|i| root.x[i]);
         self.mu = std::array::from_fn(|c| root.x[N + c]);
         // The solver's last evaluation need not be the one at its root.

@@ -1,7 +1,7 @@
 //! Orders of convergence, against solutions in quadruple precision by other software.
 
 use serde_json::Value;
-use surefoot_sim::integrators::{EnergyMomentum, Variational};
+use surefoot_sim::integrators::{Composition, EnergyMomentum, Variational, YOSHIDA_4, YOSHIDA_6};
 use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
 use surefoot_sim::mechanics::{DiscreteLagrangian, Endpoint, Midpoint};
 
@@ -21,14 +21,24 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 
 /// Errors over a decade of steps fall with the second power of the step.
 fn assert_second_order(what: &str, error: impl Fn(usize) -> f64) {
-    let steps: [usize; 4] = [1000, 2000, 4000, 10_000];
+    assert_order(what, 2.0, 0.02, [1000, 2000, 4000, 10_000], error);
+}
+
+/// Errors fall with a power of the step.
+fn assert_order(
+    what: &str,
+    expected: f64,
+    tolerance: f64,
+    steps: [usize; 4],
+    error: impl Fn(usize) -> f64,
+) {
     let errors = steps.map(&error);
     for ((coarse, fine), (n, m)) in
         errors.iter().zip(&errors[1..]).zip(steps.iter().zip(&steps[1..]))
     {
         let order = (coarse / fine).ln() / (*m as f64 / *n as f64).ln();
         println!("{what}: from {n} to {m} steps a second: order {order:.4}");
-        assert!((order - 2.0).abs() < 0.02, "{what}: order {order}");
+        assert!((order - expected).abs() < tolerance, "{what}: order {order}");
     }
 }
 
@@ -81,4 +91,38 @@ fn second_order_methods_are_of_second_order() {
             distance(motion.configuration(), &exact)
         });
     }
+}
+
+fn composed(stages: &'static [f64], seconds: usize, per_second: usize) -> [f64; 6] {
+    let (q, v) = PENDULUM.printed_start();
+    let h = 1.0 / per_second as f64;
+    let mut motion = Composition::<_, 6, 2, 8>::new(Midpoint(PENDULUM), stages, h, q, v);
+    for _ in 0..seconds * per_second {
+        motion.step().expect("a step");
+    }
+    *motion.configuration()
+}
+
+#[test]
+fn compositions_are_of_their_order() {
+    for (seconds, state) in [(1, "DSP_t1"), (5, "DSP_t5")] {
+        let exact = reference(state, &POSITIONS);
+        assert_order("pendulum, Yoshida 4", 4.0, 0.1, [100, 200, 400, 1000], |n| {
+            distance(&composed(&YOSHIDA_4, seconds, n), &exact)
+        });
+        assert_order("pendulum, Yoshida 6", 6.0, 0.3, [25, 40, 60, 80], |n| {
+            distance(&composed(&YOSHIDA_6, seconds, n), &exact)
+        });
+    }
+    let exact = reference("RB_t5", &["q_s", "q_x", "q_y", "q_z"]);
+    assert_order("rigid body, Yoshida 4", 4.0, 0.1, [100, 200, 400, 1000], |n| {
+        let (q, rate) = ([1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.5, 2.0]);
+        let h = 1.0 / n as f64;
+        let mut motion =
+            Composition::<_, 4, 1, 5>::new(FreeRigidBody::PRINTED, &YOSHIDA_4, h, q, rate);
+        for _ in 0..5 * n {
+            motion.step().expect("a step");
+        }
+        distance(motion.configuration(), &exact)
+    });
 }
