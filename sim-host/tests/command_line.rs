@@ -252,3 +252,24 @@ fn a_missing_target_is_named() {
         }
     }
 }
+
+/// Tables come as one document each, with the reading they were made in.
+#[test]
+fn tables_are_reproduced_as_json() {
+    let folder = folder("reproduce");
+    let (status, stdout, stderr) = said(&surefoot(&folder, &["reproduce", "table-2.1", "--json"]));
+    assert_eq!(status, Some(0), "{stderr}");
+    let document: Value = serde_json::from_str(&stdout).expect("one document");
+    assert_eq!(document["figure"], "table-2.1");
+    assert!(document["reading"].as_str().is_some_and(|reading| reading.contains("301")));
+    let rows = document["rows"].as_array().expect("rows");
+    assert_eq!(rows.len(), 12);
+    for row in rows {
+        assert!(row["ours"].is_number() && row["printed"].is_number());
+        // Nothing is relative to a printed zero.
+        assert_eq!(row["relative_difference"].is_null(), row["printed"] == 0.0);
+    }
+    let (status, _, stderr) = said(&surefoot(&folder, &["reproduce", "table-9.9"]));
+    assert_eq!(status, Some(2));
+    assert!(stderr.contains("table-2.1"), "{stderr}");
+}

@@ -2,8 +2,12 @@
 
 mod composition;
 mod energy_momentum;
+mod rattle;
+mod runge_kutta;
 mod variational;
 
 pub use composition::{Composition, YOSHIDA_4, YOSHIDA_6};
 pub use energy_momentum::EnergyMomentum;
+pub use rattle::Rattle;
+pub use runge_kutta::RungeKutta;
 pub use variational::{StepError, Variational};

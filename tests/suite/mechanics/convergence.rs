@@ -1,7 +1,9 @@
 //! Orders of convergence, against solutions in quadruple precision by other software.
 
 use serde_json::Value;
-use surefoot_sim::integrators::{Composition, EnergyMomentum, Variational, YOSHIDA_4, YOSHIDA_6};
+use surefoot_sim::integrators::{
+    Composition, EnergyMomentum, Rattle, RungeKutta, Variational, YOSHIDA_4, YOSHIDA_6,
+};
 use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
 use surefoot_sim::mechanics::{DiscreteLagrangian, Endpoint, Midpoint};
 
@@ -125,4 +127,29 @@ fn compositions_are_of_their_order() {
         }
         distance(motion.configuration(), &exact)
     });
+}
+
+/// Velocities, too: RATTLE's are on the manifold's tangent space.
+#[test]
+fn rattle_and_runge_kutta_are_of_their_order() {
+    const ALL: [&str; 12] =
+        ["x1", "y1", "z1", "x2", "y2", "z2", "vx1", "vy1", "vz1", "vx2", "vy2", "vz2"];
+    let (q, v) = PENDULUM.printed_start();
+    for (seconds, state) in [(1, "DSP_t1"), (5, "DSP_t5")] {
+        let exact = reference(state, &ALL);
+        assert_second_order("pendulum, RATTLE", |n| {
+            let mut motion = Rattle::<_, 6, 2>::new(PENDULUM, 1.0 / n as f64, q, &v);
+            for _ in 0..seconds * n {
+                motion.step().expect("a step");
+            }
+            distance(&[*motion.configuration(), motion.velocity()].concat(), &exact)
+        });
+        assert_order("pendulum, Runge–Kutta", 4.0, 0.15, [100, 200, 400, 1000], |n| {
+            let mut motion = RungeKutta::<_, 6, 2>::new(PENDULUM, 1.0 / n as f64, q, v);
+            for _ in 0..seconds * n {
+                motion.step().expect("a step");
+            }
+            distance(&[*motion.configuration(), *motion.velocity()].concat(), &exact)
+        });
+    }
 }

@@ -1,8 +1,8 @@
 //! What the methods conserve.
 
-use surefoot_sim::integrators::Variational;
-use surefoot_sim::mechanics::Midpoint;
+use surefoot_sim::integrators::{RungeKutta, Variational};
 use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
+use surefoot_sim::mechanics::{Midpoint, Natural};
 
 /// The momentum map (2.22) over 1e5 steps, to 1e-10 of itself.
 #[test]
@@ -40,4 +40,60 @@ fn discrete_momentum_is_conserved() {
     }
     println!("double spherical pendulum: {largest:.1e}");
     assert!(largest < 1e-10, "{largest}");
+}
+
+/// Over a million large steps the variational method's energy swings about a constant; that of the
+/// Runge–Kutta method, whose constraints drift, runs away.
+#[test]
+fn energy_of_the_variational_method_has_no_slope() {
+    let pendulum = DoubleSphericalPendulum::PRINTED;
+    let (q, v) = pendulum.printed_start();
+    let h = 0.02;
+    let mut variational = Variational::<_, 6, 2, 8>::from_velocity(Midpoint(pendulum), h, q, v);
+    let mut runge_kutta = RungeKutta::<_, 6, 2>::new(pendulum, h, q, v);
+    let mut line = Line::default();
+    let mut lost = None;
+    let start = pendulum.energy(&q, &v);
+    for step in 0..1_000_000 {
+        let time = h * f64::from(step);
+        let x = *variational.configuration();
+        let d = variational.step().expect("a step");
+        let middle = std::array::from_fn(|i| x[i] + 0.5 * h * d[i]);
+        line.add(time, pendulum.energy(&middle, &d));
+        if lost.is_none() {
+            let made = runge_kutta.step();
+            let energy = pendulum.energy(runge_kutta.configuration(), runge_kutta.velocity());
+            lost = (made.is_err() || (energy - start).abs() > 10.0).then_some(time);
+        }
+    }
+    println!("slope: {:.1e} J/s; Runge–Kutta is 10 J off after {lost:?} s", line.slope());
+    assert!(line.slope().abs() < 3e-6, "{} J/s", line.slope());
+    assert!(lost.is_some_and(|time| time < 20_000.0), "{lost:?}");
+}
+
+/// A straight line through points, by least squares.
+#[derive(Default)]
+struct Line {
+    n: f64,
+    t: f64,
+    e: f64,
+    tt: f64,
+    te: f64,
+    first: Option<f64>,
+}
+
+impl Line {
+    fn add(&mut self, time: f64, energy: f64) {
+        // Differences from the first, as sums of squares lose digits.
+        let e = energy - *self.first.get_or_insert(energy);
+        self.n += 1.0;
+        self.t += time;
+        self.e += e;
+        self.tt += time * time;
+        self.te += time * e;
+    }
+
+    fn slope(&self) -> f64 {
+        (self.n * self.te - self.t * self.e) / (self.n * self.tt - self.t * self.t)
+    }
 }
