@@ -13,8 +13,9 @@
 //! equivalent one-step form, so that a motion may begin from two configurations or from one with its
 //! momentum. Writing (1) in `d` instead of `y` keeps the digits that `y − x` would lose.
 
+use super::StepError;
 use crate::mechanics::{DiscreteLagrangian, jacobian, momenta};
-use crate::newton::{NewtonFailure, solve};
+use crate::newton::solve;
 
 /// A motion under the discrete Euler–Lagrange equations.
 #[derive(Clone, Debug)]
@@ -29,20 +30,6 @@ pub struct Variational<S, const N: usize, const C: usize, const U: usize> {
     time: f64,
     steps: u64,
     iterations: u64,
-}
-
-/// A step that could not be made.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("step {step} of {h} s, at {time_s} s: {failure}")]
-pub struct StepError {
-    /// Number of the step.
-    pub step: u64,
-    /// Its length, s.
-    pub h: f64,
-    /// When, s.
-    pub time_s: f64,
-    /// Why.
-    pub failure: NewtonFailure,
 }
 
 impl<S, const N: usize, const C: usize, const U: usize> Variational<S, N, C, U>

@@ -12,9 +12,11 @@ mod lagrangian;
 mod natural;
 mod partials;
 pub mod systems;
+mod tangent;
 
 pub use discrete_lagrangian::{DiscreteLagrangian, Endpoint, Midpoint};
 pub use generalized::{Chart, Generalized};
 pub use lagrangian::{Lagrangian, Scalar};
 pub use natural::Natural;
 pub use partials::{Momenta, augmented, hessian, jacobian, momenta};
+pub use tangent::{Displacement, carried, symplectic_form};

@@ -1,8 +1,10 @@
 //! What the methods conserve.
 
 use surefoot_sim::integrators::{RungeKutta, Variational};
-use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
-use surefoot_sim::mechanics::{Midpoint, Natural};
+use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody, PendulumAngles};
+use surefoot_sim::mechanics::{
+    Displacement, Endpoint, Generalized, Midpoint, Natural, carried, symplectic_form,
+};
 
 /// The momentum map (2.22) over 1e5 steps, to 1e-10 of itself.
 #[test]
@@ -40,6 +42,47 @@ fn discrete_momentum_is_conserved() {
     }
     println!("double spherical pendulum: {largest:.1e}");
     assert!(largest < 1e-10, "{largest}");
+}
+
+/// The symplectic form of displacements that the exact tangent maps carry along, over 500 steps of a
+/// chaotic motion (§2.2.2).
+#[test]
+fn the_symplectic_form_is_preserved() {
+    let pendulum = DoubleSphericalPendulum::PRINTED;
+    let chart = PendulumAngles { lengths: pendulum.lengths };
+    preserves_the_form(Generalized::<_, _, 6, 2> { system: Midpoint(pendulum), chart });
+    preserves_the_form(Generalized::<_, _, 6, 2> { system: Endpoint(pendulum), chart });
+}
+
+fn preserves_the_form(system: impl surefoot_sim::mechanics::DiscreteLagrangian<4, 0> + Copy) {
+    let h = 0.02;
+    let (first, second) = ([0.78, 0.0, 0.86, 0.03], [0.79, 0.02, 0.864, 0.06]);
+    let mut motion = Variational::<_, 4, 0, 4>::from_two(system, h, first, second);
+    let mut displacements: [Displacement<4>; 8] = std::array::from_fn(|k| Displacement {
+        configuration: std::array::from_fn(|i| f64::from(u8::from(i == k))),
+        momentum: std::array::from_fn(|i| f64::from(u8::from(i + 4 == k))),
+    });
+    let canonical = displacements;
+    let mut largest = 0.0_f64;
+    for step in 0..500 {
+        let x = *motion.configuration();
+        let d = motion.step().expect("a step");
+        if step % 25 == 0 {
+            // Before displacements grow as they do in a chaotic motion.
+            displacements = canonical;
+        }
+        for displacement in &mut displacements {
+            *displacement = carried(&system, &x, &d, h, displacement).expect("a regular step");
+        }
+        for (a, a_then) in displacements.iter().zip(&canonical) {
+            for (b, b_then) in displacements.iter().zip(&canonical) {
+                let change = symplectic_form(a, b) - symplectic_form(a_then, b_then);
+                largest = largest.max(change.abs());
+            }
+        }
+    }
+    println!("symplectic form: {largest:.1e}");
+    assert!(largest < 1e-9, "{largest}");
 }
 
 /// Over a million large steps the variational method's energy swings about a constant; that of the
