@@ -97,7 +97,7 @@ impl<S: Natural<N, C>, const N: usize, const C: usize, const U: usize> EnergyMom
             step: self.steps,
             h,
             time_s: self.steps as f64 * h,
-            failure,
+            failure: failure.into(),
         })?;
         for i in 0..N {
             self.p[i] = 2.0 * masses[i] * root.x[i] - self.p[i];

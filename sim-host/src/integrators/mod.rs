@@ -11,5 +11,5 @@ pub use composition::{Composition, YOSHIDA_4, YOSHIDA_6};
 pub use energy_momentum::EnergyMomentum;
 pub use rattle::Rattle;
 pub use runge_kutta::RungeKutta;
-pub use step_error::StepError;
+pub use step_error::{StepError, StepFailure};
 pub use variational::Variational;

@@ -48,11 +48,11 @@ impl<S: Natural<N, C>, const N: usize, const C: usize> Rattle<S, N, C> {
     /// # Errors
     /// A [`StepError`]; the motion is then where it was.
     pub fn step(&mut self) -> Result<(), StepError> {
-        let error = |failure| StepError {
+        let error = |failure: NewtonFailure| StepError {
             step: self.steps,
             h: self.h,
             time_s: self.steps as f64 * self.h,
-            failure,
+            failure: failure.into(),
         };
         let Self { system, h, x, p, .. } = &*self;
         let h = *h;

@@ -40,11 +40,11 @@ impl<S: Natural<N, C>, const N: usize, const C: usize> RungeKutta<S, N, C> {
     /// # Errors
     /// A [`StepError`] where the constraints are dependent, or a number is not finite.
     pub fn step(&mut self) -> Result<(), StepError> {
-        let error = |failure| StepError {
+        let error = |failure: NewtonFailure| StepError {
             step: self.steps,
             h: self.h,
             time_s: self.steps as f64 * self.h,
-            failure,
+            failure: failure.into(),
         };
         let h = self.h;
         let moved = |a: &[f64; N], b: &[f64; N], share: f64| -> [f64; N] {

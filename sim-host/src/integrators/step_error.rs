@@ -13,5 +13,17 @@ pub struct StepError {
     /// When, s.
     pub time_s: f64,
     /// Why.
-    pub failure: NewtonFailure,
+    pub failure: StepFailure,
+}
+
+/// Why a step could not be made.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum StepFailure {
+    /// Its equations have not been solved.
+    #[error("{0}")]
+    Newton(#[from] NewtonFailure),
+    /// Its equations have a root, but one that no shorter step leads to: there is a fold between. A
+    /// motion that went on from it would be another one.
+    #[error("the step is too long: its root is on another branch than that of short steps")]
+    WrongBranch,
 }

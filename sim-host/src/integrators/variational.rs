@@ -13,9 +13,9 @@
 //! equivalent one-step form, so that a motion may begin from two configurations or from one with its
 //! momentum. Writing (1) in `d` instead of `y` keeps the digits that `y − x` would lose.
 
-use super::StepError;
-use crate::mechanics::{DiscreteLagrangian, jacobian, momenta};
-use crate::newton::solve;
+use super::{StepError, StepFailure};
+use crate::mechanics::{DiscreteLagrangian, Momenta, jacobian, momenta};
+use crate::newton::{Factors, solve};
 
 /// A motion under the discrete Euler–Lagrange equations.
 #[derive(Clone, Debug)]
@@ -105,30 +105,34 @@ where
             let step = momenta(system, x, &d, h);
             let (values, rows) = jacobian(&y, |v| system.constraints(v));
             let mut residual = [0.0; U];
-            let mut slope = [[0.0; U]; U];
             for i in 0..N {
                 residual[i] = step.begin[i] - p[i];
-                slope[i][..N].copy_from_slice(&step.stiffness[i]);
                 for c in 0..C {
                     residual[i] -= h * g[c][i] * unknowns[N + c];
-                    slope[i][N + c] = -h * g[c][i];
-                    slope[N + c][i] = h * rows[c][i];
                 }
             }
             residual[N..].copy_from_slice(&values);
-            (residual, slope)
+            (residual, slope(&step, &g, &rows, h))
         })
         .map_err(|failure| StepError {
             step: self.steps,
             h,
             time_s: self.time,
-            failure,
+            failure: failure.into(),
         })?;
-        self.time += h;
-        self.d = std::array::from_fn(|i| root.x[i]);
-        self.mu = std::array::from_fn(|c| root.x[N + c]);
+        let d: [f64; N] = std::array::from_fn(|i| root.x[i]);
         // The solver's last evaluation need not be the one at its root.
-        self.p = momenta(&self.system, &self.x, &self.d, h).end;
+        let step = momenta(system, x, &d, h);
+        let y = std::array::from_fn(|i| x[i] + h * d[i]);
+        let (_, rows) = jacobian(&y, |v| system.constraints(v));
+        if !is_on_the_branch_of_short_steps::<N, C, U>(&step, &g, &rows, h) {
+            let failure = StepFailure::WrongBranch;
+            return Err(StepError { step: self.steps, h, time_s: self.time, failure });
+        }
+        self.time += h;
+        self.d = d;
+        self.mu = std::array::from_fn(|c| root.x[N + c]);
+        self.p = step.end;
         for (x, d) in self.x.iter_mut().zip(&self.d) {
             *x += h * d;
         }
@@ -136,4 +140,35 @@ where
         self.iterations += u64::from(root.iterations);
         Ok(self.d)
     }
+}
+
+/// Jacobian of (1), by rows: `−h` times (2.43) in `(d, μ)`.
+fn slope<const N: usize, const C: usize, const U: usize>(
+    step: &Momenta<N>,
+    g: &[[f64; N]; C],
+    g_end: &[[f64; N]; C],
+    h: f64,
+) -> [[f64; U]; U] {
+    let mut slope = [[0.0; U]; U];
+    for i in 0..N {
+        slope[i][..N].copy_from_slice(&step.stiffness[i]);
+        for c in 0..C {
+            slope[i][N + c] = -h * g[c][i];
+            slope[N + c][i] = h * g_end[c][i];
+        }
+    }
+    slope
+}
+
+/// For a short step the Jacobian's determinant is positive, as kinetic energy is: there it is
+/// `h^{2C} det(M) det(G M⁻¹ Gᵀ)`. Along the branch of roots that short steps lead to it can change its
+/// sign only at a fold, so that behind the first fold it is negative.
+fn is_on_the_branch_of_short_steps<const N: usize, const C: usize, const U: usize>(
+    step: &Momenta<N>,
+    g: &[[f64; N]; C],
+    g_end: &[[f64; N]; C],
+    h: f64,
+) -> bool {
+    Factors::<U>::new(slope(step, g, g_end, h))
+        .is_ok_and(|factors| factors.determinant_is_positive())
 }

@@ -1,44 +1,99 @@
 //! Dense linear equations of a size known at compile time.
+//!
+//! nalgebra's decompositions of matrices whose size is a type's parameter need bounds on that
+//! parameter in every signature above them; these need none.
 
-/// `x` with `A x = b`, by Gaussian elimination with row exchanges (Golub and Van Loan, *Matrix
+/// `P A = L U`, by Gaussian elimination with row exchanges (Golub and Van Loan, *Matrix
 /// Computations*, alg. 3.4.1).
-///
-/// nalgebra's decompositions of matrices whose size is a type's parameter need bounds on that
-/// parameter in every signature above them; this needs none.
+#[derive(Clone, Copy, Debug)]
+pub struct Factors<const U: usize> {
+    /// `L` below the diagonal, `U` on and above it.
+    lu: [[f64; U]; U],
+    /// Row of `A` that became row i.
+    order: [usize; U],
+    determinant_is_positive: bool,
+}
+
+impl<const U: usize> Factors<U> {
+    /// Factors a matrix given by rows.
+    ///
+    /// # Errors
+    /// The number of the pivot that is zero, or not finite.
+    pub fn new(mut a: [[f64; U]; U]) -> Result<Self, usize> {
+        let mut order = std::array::from_fn(|i| i);
+        let mut determinant_is_positive = true;
+        for k in 0..U {
+            let mut best = k;
+            for i in k + 1..U {
+                if a[i][k].abs() > a[best][k].abs() {
+                    best = i;
+                }
+            }
+            a.swap(k, best);
+            order.swap(k, best);
+            let row = a[k];
+            if !(row[k].abs() > 0.0 && row[k].is_finite()) {
+                return Err(k);
+            }
+            determinant_is_positive ^= (best != k) ^ (row[k] < 0.0);
+            for i in k + 1..U {
+                let factor = a[i][k] / row[k];
+                a[i][k] = factor;
+                for j in k + 1..U {
+                    a[i][j] -= factor * row[j];
+                }
+            }
+        }
+        Ok(Self { lu: a, order, determinant_is_positive })
+    }
+
+    /// `x` with `A x = b`.
+    pub fn solve(&self, b: &[f64; U]) -> [f64; U] {
+        let mut x = self.order.map(|row| b[row]);
+        for i in 0..U {
+            for j in 0..i {
+                x[i] -= self.lu[i][j] * x[j];
+            }
+        }
+        for i in (0..U).rev() {
+            for j in i + 1..U {
+                x[i] -= self.lu[i][j] * x[j];
+            }
+            x[i] /= self.lu[i][i];
+        }
+        x
+    }
+
+    /// Whether `det A > 0`.
+    pub fn determinant_is_positive(&self) -> bool {
+        self.determinant_is_positive
+    }
+}
+
+/// `x` with `A x = b`.
 ///
 /// # Errors
 /// The number of the pivot that is zero, or not finite.
-pub fn solve_linear<const U: usize>(
-    mut a: [[f64; U]; U],
-    mut b: [f64; U],
-) -> Result<[f64; U], usize> {
-    for k in 0..U {
-        let mut best = k;
-        for i in k + 1..U {
-            if a[i][k].abs() > a[best][k].abs() {
-                best = i;
-            }
-        }
-        a.swap(k, best);
-        b.swap(k, best);
-        let (row, value) = (a[k], b[k]);
-        if !(row[k].abs() > 0.0 && row[k].is_finite()) {
-            return Err(k);
-        }
-        for i in k + 1..U {
-            let factor = a[i][k] / row[k];
-            for j in k..U {
-                a[i][j] -= factor * row[j];
-            }
-            b[i] -= factor * value;
-        }
+pub fn solve_linear<const U: usize>(a: [[f64; U]; U], b: [f64; U]) -> Result<[f64; U], usize> {
+    Ok(Factors::new(a)?.solve(&b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Factors;
+
+    #[test]
+    fn solutions_and_signs() {
+        // det = −2·(−1)·… by hand: rows exchanged once from diag(2, 3, −1) gives +6.
+        let a = [[0.0, 3.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, -1.0]];
+        let factors = Factors::new(a).expect("regular");
+        assert!(factors.determinant_is_positive());
+        assert_eq!(factors.solve(&[3.0, 4.0, 5.0]), [2.0, 1.0, -5.0]);
+        let b = [[4.0, 1.0], [2.0, 3.0]];
+        assert!(Factors::new(b).expect("regular").determinant_is_positive());
+        let c = [[1.0, 2.0], [3.0, 4.0]];
+        assert!(!Factors::new(c).expect("regular").determinant_is_positive());
+        assert_eq!(Factors::new([[1.0, 2.0], [2.0, 4.0]]).err(), Some(1));
+        assert_eq!(Factors::new([[f64::NAN]]).err(), Some(0));
     }
-    for i in (0..U).rev() {
-        let mut sum = b[i];
-        for j in i + 1..U {
-            sum -= a[i][j] * b[j];
-        }
-        b[i] = sum / a[i][i];
-    }
-    Ok(b)
 }

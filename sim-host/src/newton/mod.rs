@@ -3,7 +3,7 @@
 
 mod linear;
 
-pub use linear::solve_linear;
+pub use linear::{Factors, solve_linear};
 
 /// Residual and Jacobian (by rows) at a point.
 pub type Evaluation<const U: usize> = ([f64; U], [[f64; U]; U]);

@@ -3,4 +3,5 @@
 mod convergence;
 mod equivalence;
 mod invariants;
+mod limits;
 mod tables;
