@@ -1,16 +1,12 @@
 //! Curves over time: panels below each other on one time axis.
 
+use super::style::{
+    COLORS, ChartError, LEGEND_WIDTH, PANEL_HEIGHT, Painted, TITLE_HEIGHT, WIDTH, label, names,
+    range,
+};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::path::Path;
-
-/// A chart could not be drawn or written.
-#[derive(Debug, thiserror::Error)]
-#[error("chart {path}: {reason}")]
-pub struct ChartError {
-    path: String,
-    reason: String,
-}
 
 /// A named curve.
 #[derive(Clone, Debug)]
@@ -32,22 +28,6 @@ pub struct Panel {
     pub series: Vec<Series>,
 }
 
-/// Okabe and Ito's colours, which people with any common colour vision can tell apart, darkest
-/// first; curves beyond six repeat them dashed.
-const COLORS: [RGBColor; 6] = [
-    RGBColor(0, 0, 0),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 114, 178),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-];
-
-const WIDTH: u32 = 900;
-const PANEL_HEIGHT: u32 = 300;
-const LEGEND_WIDTH: u32 = 170;
-const TITLE_HEIGHT: u32 = 40;
-
 /// Draws panels with a common time axis (s) to an SVG file.
 ///
 /// # Errors
@@ -55,11 +35,8 @@ const TITLE_HEIGHT: u32 = 40;
 pub fn draw(path: &Path, title: &str, times: &[f64], panels: &[Panel]) -> Result<(), ChartError> {
     let height = TITLE_HEIGHT + PANEL_HEIGHT * panels.len() as u32;
     let root = SVGBackend::new(path, (WIDTH, height)).into_drawing_area();
-    paint(&root, title, times, panels)
-        .map_err(|error| ChartError { path: path.display().to_string(), reason: error.to_string() })
+    paint(&root, title, times, panels).map_err(|error| ChartError::new(path, error.as_ref()))
 }
-
-type Painted = Result<(), Box<dyn std::error::Error>>;
 
 fn paint(
     root: &DrawingArea<SVGBackend<'_>, Shift>,
@@ -72,7 +49,7 @@ fn paint(
     for (panel, area) in panels.iter().zip(area.split_evenly((panels.len(), 1))) {
         let (plot, legend) = area.split_horizontally(WIDTH - LEGEND_WIDTH);
         axes(&plot, times, panel)?;
-        names(&legend, panel)?;
+        names(&legend, panel.series.iter().map(|series| (series.name.as_str(), false)))?;
     }
     root.present()?;
     Ok(())
@@ -80,7 +57,7 @@ fn paint(
 
 fn axes(area: &DrawingArea<SVGBackend<'_>, Shift>, times: &[f64], panel: &Panel) -> Painted {
     let end = times.last().copied().unwrap_or(1.0).max(1e-9);
-    let (low, high) = range(panel);
+    let (low, high) = range(panel.series.iter().flat_map(|series| &series.values).copied());
     let mut chart = ChartBuilder::on(area)
         .caption(&panel.title, ("sans-serif", 16))
         .margin_left(10)
@@ -111,44 +88,4 @@ fn axes(area: &DrawingArea<SVGBackend<'_>, Shift>, times: &[f64], panel: &Panel)
         }
     }
     Ok(())
-}
-
-/// Legend beside the axes, where it hides nothing.
-fn names(area: &DrawingArea<SVGBackend<'_>, Shift>, panel: &Panel) -> Painted {
-    for (i, series) in panel.series.iter().enumerate() {
-        let y = 40 + 19 * i as i32;
-        let style = COLORS[i % COLORS.len()].stroke_width(3);
-        if i < COLORS.len() {
-            area.draw(&PathElement::new(vec![(4, y), (30, y)], style))?;
-        } else {
-            area.draw(&PathElement::new(vec![(4, y), (13, y)], style))?;
-            area.draw(&PathElement::new(vec![(20, y), (29, y)], style))?;
-        }
-        area.draw(&Text::new(series.name.as_str(), (38, y - 7), ("sans-serif", 14)))?;
-    }
-    Ok(())
-}
-
-/// From the least to the greatest finite value, with a margin; never empty.
-fn range(panel: &Panel) -> (f64, f64) {
-    let finite = || panel.series.iter().flat_map(|s| &s.values).copied().filter(|y| y.is_finite());
-    let low = finite().fold(f64::INFINITY, f64::min);
-    let high = finite().fold(f64::NEG_INFINITY, f64::max);
-    if low > high {
-        return (-1.0, 1.0);
-    }
-    let margin = (0.06 * (high - low)).max(1e-9 * high.abs().max(low.abs())).max(1e-12);
-    (low - margin, high + margin)
-}
-
-/// As many digits as the range needs.
-fn label(y: f64, span: f64) -> String {
-    let digits = (1.5 - span.log10()).ceil().clamp(0.0, 9.0) as usize;
-    let text = format!("{y:.digits$}");
-    // No "-0" or "-0.00".
-    if text.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') {
-        text.trim_start_matches('-').to_owned()
-    } else {
-        text
-    }
 }

@@ -1,63 +1,95 @@
 //! `surefoot reproduce`
 
 use super::report::percent;
-use super::{RUN_FAILED, say};
-use crate::experiments::{Comparison, table_2_1, table_2_2};
+use super::{RUN_FAILED, bad_input, say};
+use crate::experiments::{Comparison, Figure, double_pendulum, free_body};
+use crate::integrators::StepError;
 use clap::Parser;
 use indicatif::ProgressBar;
 use serde_json::json;
 use std::fmt::Write;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
 /// Options of `reproduce`.
 #[derive(Debug, Parser)]
 pub struct Options {
-    /// What to reproduce
-    #[arg(value_enum, default_value = "all")]
-    figure: Figure,
+    /// What to reproduce: a table, a figure, or all
+    #[arg(value_parser = NAMES, default_value = "all", hide_default_value = true)]
+    figure: String,
+    /// Where drawings go
+    #[arg(long, default_value = "out/reproduce")]
+    out: PathBuf,
     /// One JSON document instead of tables
     #[arg(long)]
     json: bool,
 }
 
-/// What the text prints.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Figure {
-    /// Free rigid body
-    #[value(name = "table-2.1")]
-    Table21,
-    /// Double spherical pendulum
-    #[value(name = "table-2.2")]
-    Table22,
-    /// Everything
-    All,
-}
+const FREE_BODY: [&str; 6] =
+    ["table-2.1", "figure-2.2", "figure-2.3", "figure-2.4", "figure-2.5", "figure-2.6"];
+const DOUBLE_PENDULUM: [&str; 7] = [
+    "table-2.2",
+    "figure-2.7",
+    "figure-2.8",
+    "figure-2.9",
+    "figure-2.10",
+    "figure-2.11",
+    "figure-2.12",
+];
+const NAMES: [&str; 14] = [
+    "table-2.1",
+    "figure-2.2",
+    "figure-2.3",
+    "figure-2.4",
+    "figure-2.5",
+    "figure-2.6",
+    "table-2.2",
+    "figure-2.7",
+    "figure-2.8",
+    "figure-2.9",
+    "figure-2.10",
+    "figure-2.11",
+    "figure-2.12",
+    "all",
+];
 
 /// Reproduces and compares.
 pub fn reproduce(options: &Options) -> ExitCode {
-    let tables = [
-        (Figure::Table21, "table-2.1", table_2_1 as fn() -> Result<_, _>, READING_2_1),
-        (Figure::Table22, "table-2.2", table_2_2, READING_2_2),
+    let wanted = |name: &str| options.figure == "all" || options.figure == name;
+    let mut items = Vec::new();
+    let made = [
+        (&FREE_BODY[..], free_body_items as fn() -> Result<Vec<Item>, StepError>),
+        (&DOUBLE_PENDULUM[..], double_pendulum_items),
     ];
-    let mut documents = Vec::new();
-    for (figure, name, table, reading) in tables {
-        if ![figure, Figure::All].contains(&options.figure) {
+    for (names, make) in made {
+        if !names.iter().any(|name| wanted(name)) {
             continue;
         }
-        let spinner = ProgressBar::new_spinner().with_message(name);
+        let spinner = ProgressBar::new_spinner().with_message(names[0]);
         spinner.enable_steady_tick(Duration::from_millis(100));
-        let rows = table();
+        let made = make();
         spinner.finish_and_clear();
-        match rows {
-            Ok(rows) if options.json => {
-                documents.push(json!({ "figure": name, "reading": reading, "rows": rows }));
-            }
-            Ok(rows) => say(&text(name, reading, &rows)),
+        match made {
+            Ok(made) => items.extend(made.into_iter().filter(|item| wanted(item.name))),
             Err(error) => {
-                eprintln!("error: {name}: {error}");
+                eprintln!("error: {}: {error}", names[0]);
                 return ExitCode::from(RUN_FAILED);
             }
+        }
+    }
+    let mut documents = Vec::new();
+    for item in &items {
+        let file = match item.draw(&options.out) {
+            Ok(file) => file,
+            Err(message) => return bad_input(&message, options.json),
+        };
+        if options.json {
+            let Item { name, reading, rows, .. } = item;
+            documents
+                .push(json!({ "figure": name, "reading": reading, "rows": rows, "file": file }));
+        } else {
+            say(&item.text(file.as_deref()));
         }
     }
     if options.json {
@@ -67,28 +99,77 @@ pub fn reproduce(options: &Options) -> ExitCode {
         };
         say(&format!("{document:#}\n"));
     }
+    let missed = items.iter().flat_map(|item| &item.rows).filter(|row| row.met == Some(false));
+    match missed.count() {
+        0 => {}
+        missed => eprintln!("{missed} rows are farther from the printed figure than asked for"),
+    }
     ExitCode::SUCCESS
 }
 
-const READING_2_1: &str = "301 samples, every 0.1 s from 0 to 30 s; energy and momentum against the \
-    first pair of 1e-5 s, quaternions against the run of 1e-4 s";
-const READING_2_2: &str = "301 samples, every 0.1 s from 0 to 30 s; against the energy-momentum run of \
-    1e-4 s, and the start's energy and momentum; initial values as printed, rounded";
+/// A table or a figure.
+struct Item {
+    name: &'static str,
+    reading: &'static str,
+    rows: Vec<Comparison>,
+    figure: Option<Figure>,
+}
 
-fn text(name: &str, reading: &str, rows: &[Comparison]) -> String {
-    let mut out = String::new();
-    // Writing to a string cannot fail.
-    let _ = writeln!(out, "{name}: {reading}");
-    let _ = writeln!(out, "  {:<40}{:>12}{:>12}{:>9}", "", "ours", "printed", "diff");
-    for row in rows {
-        let _ = writeln!(
-            out,
-            "  {:<40}{:>12.3e}{:>12.3e}{:>9}",
-            row.figure,
-            row.ours,
-            row.printed,
-            percent(row.relative_difference),
-        );
+impl Item {
+    fn table(name: &'static str, reading: &'static str, rows: Vec<Comparison>) -> Self {
+        Self { name, reading, rows, figure: None }
     }
-    out
+
+    fn figure(figure: Figure) -> Self {
+        let Figure { name, reading, ref rows, .. } = figure;
+        Self { name, reading, rows: rows.clone(), figure: Some(figure) }
+    }
+
+    /// Draws a figure; a table has no drawing.
+    fn draw(&self, folder: &Path) -> Result<Option<PathBuf>, String> {
+        let Some(figure) = &self.figure else { return Ok(None) };
+        let path = folder.join(format!("{}.svg", self.name));
+        std::fs::create_dir_all(folder)
+            .map_err(|error| format!("{}: {error}", folder.display()))?;
+        figure.chart.draw(&path).map_err(|error| error.to_string())?;
+        Ok(Some(path))
+    }
+
+    fn text(&self, file: Option<&Path>) -> String {
+        let mut out = String::new();
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "{}: {}", self.name, self.reading);
+        if !self.rows.is_empty() {
+            let _ = writeln!(out, "  {:<40}{:>12}{:>12}{:>9}", "", "ours", "printed", "diff");
+        }
+        for row in &self.rows {
+            let _ = writeln!(
+                out,
+                "  {:<40}{:>12.3e}{:>12.3e}{:>9}{}",
+                row.figure,
+                row.ours,
+                row.printed,
+                percent(row.relative_difference),
+                if row.met == Some(false) { "  MISSED" } else { "" },
+            );
+        }
+        if let Some(file) = file {
+            let _ = writeln!(out, "  drawn: {}", file.display());
+        }
+        out
+    }
+}
+
+fn free_body_items() -> Result<Vec<Item>, StepError> {
+    let runs = free_body::Runs::new()?;
+    let mut items = vec![Item::table("table-2.1", free_body::READING, runs.table_2_1())];
+    items.extend(runs.figures().into_iter().map(Item::figure));
+    Ok(items)
+}
+
+fn double_pendulum_items() -> Result<Vec<Item>, StepError> {
+    let runs = double_pendulum::Runs::new()?;
+    let mut items = vec![Item::table("table-2.2", double_pendulum::READING, runs.table_2_2())];
+    items.extend(runs.figures().into_iter().map(Item::figure));
+    Ok(items)
 }

@@ -2,8 +2,8 @@
 //! steps of other lengths, some backwards, that cancel its errors up to a higher order. What each step
 //! conserves, the whole conserves.
 
-use super::{StepError, Variational};
-use crate::mechanics::DiscreteLagrangian;
+use super::{Integrator, Progress, StepError, Variational};
+use crate::mechanics::{DiscreteLagrangian, Scalar};
 
 /// Fourth order, three stages: `1/(2 − 2^{1/3})` twice about `−2^{1/3}/(2 − 2^{1/3})`.
 pub const YOSHIDA_4: [f64; 3] =
@@ -22,36 +22,46 @@ pub const YOSHIDA_6: [f64; 7] = [
 
 /// A motion in composed steps. The method inside must be symmetric: [`crate::mechanics::Midpoint`] is.
 #[derive(Clone, Debug)]
-pub struct Composition<S, const N: usize, const C: usize, const U: usize> {
-    inner: Variational<S, N, C, U>,
+pub struct Composition<S, const N: usize, const C: usize, const U: usize, D = f64> {
+    inner: Variational<S, N, C, U, D>,
     stages: &'static [f64],
-    h: f64,
 }
 
-impl<S: DiscreteLagrangian<N, C>, const N: usize, const C: usize, const U: usize>
-    Composition<S, N, C, U>
+impl<S, D: Scalar, const N: usize, const C: usize, const U: usize> Composition<S, N, C, U, D>
+where
+    S: DiscreteLagrangian<N, C>,
 {
     /// From a configuration on the manifold and its velocity, with the shares of a step that the
     /// stages take.
-    pub fn new(system: S, stages: &'static [f64], h: f64, x: [f64; N], v_dot: [f64; N]) -> Self {
-        Self { inner: Variational::from_velocity(system, h, x, v_dot), stages, h }
+    pub fn new(system: S, stages: &'static [f64], h: f64, x: [D; N], v_dot: [D; N]) -> Self {
+        Self { inner: Variational::from_velocity(system, h, x, v_dot), stages }
+    }
+}
+
+impl<S, D: Scalar, const N: usize, const C: usize, const U: usize> Integrator<N, D>
+    for Composition<S, N, C, U, D>
+where
+    S: DiscreteLagrangian<N, C> + Clone,
+{
+    fn step(&mut self) -> Result<(), StepError> {
+        let mut inner = self.inner.clone();
+        for share in self.stages {
+            inner.step_by(share * inner.progress.h)?;
+        }
+        inner.progress.advance();
+        self.inner = inner;
+        Ok(())
     }
 
-    /// The configuration.
-    pub fn configuration(&self) -> &[f64; N] {
+    fn configuration(&self) -> &[D; N] {
         self.inner.configuration()
     }
 
-    /// The momentum there.
-    pub fn momentum(&self) -> &[f64; N] {
-        self.inner.momentum()
+    fn velocity(&self) -> Result<[D; N], StepError> {
+        self.inner.velocity()
     }
 
-    /// One step of all stages.
-    ///
-    /// # Errors
-    /// That of the stage that failed.
-    pub fn step(&mut self) -> Result<(), StepError> {
-        self.stages.iter().try_for_each(|share| self.inner.step_by(share * self.h).map(|_| ()))
+    fn progress(&self) -> &Progress {
+        &self.inner.progress
     }
 }

@@ -1,111 +1,192 @@
-//! The energy-momentum method of §2.4.2 (after Gonzalez 1996), for natural systems whose potential and
-//! constraints are at most quadratic: there the discrete gradients are those at the midpoint, and the
-//! method is the implicit midpoint rule with the constraint at the end of the step.
+//! The energy-momentum method of §2.4.2, for any natural system, by Gonzalez' discrete gradient
+//! (*Time integration and discrete Hamiltonian systems*, 1996). Energy is conserved for all; angular
+//! momentum where the potential and the constraints are polynomials of degree two at most.
 //!
 //! # Notation
-//! `x = q_n`, `p = p_n`, `d = (q_{n+1} − q_n)/h` (the unknown: differences of positions would lose
-//! the digits that a small step needs), `y = x + h d`, `m = x + h d/2`
+//! - `x, y` = `q^n, q^{n+1}`; `d = (y − x)/h`; `m = (x + y)/2`; unknowns `(d, λ)`
+//! - `D̄f = Df(m) + e d/(h d·d)`, `e = f(y) − f(x) − h Df(m) d` (1)
 //!
 //! ```text
-//! p_{n+1} = 2 M d − p
-//! 2 M d − 2 p + h DᵀV(m) + h Dᵀg(m) λ = 0,   Dg(m) d = 0
+//! M d + h/2 (D̄ᵀV − F(m, d) − D̄ᵀg λ) = p,   D̄g d = 0                    (2)
+//! p := 2 M d − p
 //! ```
-//! The last equation is `g(y) = g(x)` for a quadratic `g`, with the digits that the difference of two
-//! values of `g` over a small step would lose.
+//! The second says that `g(y) = g(x)`, without the round-off of either, which the first would turn into
+//! energy. With `p^{n+½} = M d` (2) is the printed set; its multipliers are of the other sign, and halved.
 
-use super::StepError;
-use crate::mechanics::{Natural, augmented, hessian, jacobian};
-use crate::newton::solve;
+use super::branch::on_branch_of_short_steps;
+use super::{Integrator, Progress, StepError, scale};
+use crate::mechanics::{Natural, Scalar, augmented, hessian, jacobian, saddle};
+use crate::newton::{Evaluation, solve};
+use num_dual::Dual;
 
 /// A motion under the energy-momentum method.
 #[derive(Clone, Debug)]
-pub struct EnergyMomentum<S, const N: usize, const C: usize, const U: usize> {
+pub struct EnergyMomentum<S, const N: usize, const C: usize, const U: usize, D = f64> {
     system: S,
-    h: f64,
-    q: [f64; N],
-    p: [f64; N],
-    lambda: [f64; C],
-    steps: u64,
-    iterations: u64,
+    x: [D; N],
+    p: [D; N],
+    lambda: [D; C],
+    progress: Progress,
 }
 
-impl<S: Natural<N, C>, const N: usize, const C: usize, const U: usize> EnergyMomentum<S, N, C, U> {
-    /// From a configuration on the manifold, and velocities.
-    pub fn new(system: S, h: f64, q: [f64; N], q_dot: &[f64; N]) -> Self {
-        const { assert!(U == N + C, "unknowns are coordinates and multipliers") }
+impl<S, D: Scalar, const N: usize, const C: usize, const U: usize> EnergyMomentum<S, N, C, U, D>
+where
+    S: Natural<N, C>,
+{
+    /// From a configuration on the manifold, and a velocity along it.
+    pub fn new(system: S, h: f64, x: [D; N], v_dot: &[D; N]) -> Self {
         let masses = system.masses();
-        let p = std::array::from_fn(|i| masses[i] * q_dot[i]);
-        Self { system, h, q, p, lambda: [0.0; C], steps: 0, iterations: 0 }
+        let p = std::array::from_fn(|i| v_dot[i] * masses[i]);
+        Self { system, x, p, lambda: [D::from(0.0); C], progress: Progress::new(h) }
     }
 
-    /// The latest configuration.
-    pub fn configuration(&self) -> &[f64; N] {
-        &self.q
-    }
-
-    /// The latest velocities.
-    pub fn velocity(&self) -> [f64; N] {
+    fn rates(&self) -> [D; N] {
         let masses = self.system.masses();
         std::array::from_fn(|i| self.p[i] / masses[i])
     }
+}
 
-    /// Newton iterations a step, on average.
-    pub fn mean_iterations(&self) -> f64 {
-        self.iterations as f64 / self.steps.max(1) as f64
-    }
-
-    /// One step.
-    ///
-    /// # Errors
-    /// A [`StepError`]; the motion is then where it was.
-    pub fn step(&mut self) -> Result<(), StepError> {
-        let Self { system, h, q: x, p, lambda, .. } = &*self;
-        let h = *h;
+impl<S, D: Scalar, const N: usize, const C: usize, const U: usize> Integrator<N, D>
+    for EnergyMomentum<S, N, C, U, D>
+where
+    S: Natural<N, C>,
+{
+    fn step(&mut self) -> Result<(), StepError> {
+        let Self { system, x, p, lambda, progress } = &*self;
+        let h = progress.h;
         let masses = system.masses();
-        let start = std::array::from_fn(|i| if i < N { p[i] / masses[i] } else { lambda[i - N] });
-        let momentum = p.iter().fold(f64::MIN_POSITIVE, |m, p| m.max(2.0 * p.abs()));
-        let extent = x.iter().fold(1.0_f64, |m, q| m.max(q.abs()));
-        let speed = start[..N].iter().fold(f64::MIN_POSITIVE, |m, d| m.max(d.abs()));
-        let scale = std::array::from_fn(|i| if i < N { momentum } else { extent * speed });
-        let root = solve::<U>(start, &scale, |unknowns| {
-            let lambda: [f64; C] = std::array::from_fn(|c| unknowns[N + c]);
-            let middle: [f64; N] = std::array::from_fn(|i| x[i] + 0.5 * h * unknowns[i]);
-            let (gradient, hessian) = hessian(&middle, |q| {
+        let rates = self.rates();
+        let start = std::array::from_fn(|i| if i < N { rates[i] } else { lambda[i - N] });
+        let (momentum, rate) = (scale::largest(p), scale::constraint_rate(x, &rates));
+        let scale = std::array::from_fn(|i| if i < N { momentum } else { rate });
+        let extent = scale::constraint(x);
+        let (potential, constraints) = (system.potential(x), system.constraints(x));
+        let root = solve(start, &scale, |unknowns: &[D; U]| {
+            let d: [D; N] = std::array::from_fn(|i| unknowns[i]);
+            let lambda: [D; C] = std::array::from_fn(|c| -unknowns[N + c]);
+            let middle: [D; N] = std::array::from_fn(|i| x[i] + d[i] * (0.5 * h));
+            let y: [D; N] = std::array::from_fn(|i| x[i] + d[i] * h);
+            let (values, g_end) = jacobian(&y, |q| system.constraints(q));
+            let (_, mut g) = jacobian(&middle, |q| system.constraints(q));
+            let mut change = [D::from(0.0); C];
+            for c in 0..C {
+                let gap = Gap::new(&g[c], &d, h, [constraints[c], values[c]], extent);
+                g[c] = gap.gradient(&g[c], &d);
+                change[c] = (0..N).map(|i| g[c][i] * d[i]).sum();
+            }
+            // The same of V − λᵀ g, with its derivative.
+            let ([end], [slope_end]) =
+                jacobian(&y, |q| [augmented(system.potential(q), &lambda, system.constraints(q))]);
+            let (slope, bend) = hessian(&middle, |q| {
                 augmented(system.potential(q), &lambda, system.constraints(q))
             });
-            let (_, g) = jacobian(&middle, |q| system.constraints(q));
-            // Derivative of Dg(x + h d/2) d with respect to d: that is Dg(x + h d), as Dg is linear.
-            let end: [f64; N] = std::array::from_fn(|i| x[i] + h * unknowns[i]);
-            let (_, g_end) = jacobian(&end, |q| system.constraints(q));
-            let mut residual = [0.0; U];
-            let mut slope = [[0.0; U]; U];
-            for i in 0..N {
-                residual[i] = 2.0 * masses[i] * unknowns[i] - 2.0 * p[i] + h * gradient[i];
-                for j in 0..N {
-                    slope[i][j] = 0.5 * h * h * hessian[i][j];
-                }
-                slope[i][i] += 2.0 * masses[i];
-                for c in 0..C {
-                    residual[N + c] += g[c][i] * unknowns[i];
-                    slope[i][N + c] = h * g[c][i];
-                    slope[N + c][i] = g_end[c][i];
+            let begin = (0..C).fold(potential, |sum, c| sum + constraints[c] * lambda[c]);
+            let terms = potential.re().abs() + extent * scale::largest(&lambda);
+            let gap = Gap::new(&slope, &d, h, [begin, end], terms);
+            let pull = gap.gradient(&slope, &d);
+            let mut stiffness = gap.stiffness(&slope, &slope_end, &bend, &d, h);
+            let mut external = [D::from(0.0); N];
+            if let Some(force) = system.force(&middle, &d) {
+                external = force;
+                let (_, change) = jacobian(&d, |d| {
+                    let middle = std::array::from_fn(|i| Dual::from_re(x[i]) + d[i] * (0.5 * h));
+                    system.force(&middle, d).unwrap_or([Dual::from_re(D::from(0.0)); N])
+                });
+                for (row, change) in stiffness.iter_mut().zip(change) {
+                    for (entry, change) in row.iter_mut().zip(change) {
+                        *entry -= change;
+                    }
                 }
             }
-            (residual, slope)
+            for i in 0..N {
+                stiffness[i] = stiffness[i].map(|x| x * (0.5 * h));
+                stiffness[i][i] += masses[i];
+            }
+            let residual = std::array::from_fn(|i| match i.checked_sub(N) {
+                Some(c) => change[c],
+                None => d[i] * masses[i] - p[i] + (pull[i] - external[i]) * (0.5 * h),
+            });
+            let jacobian = saddle(&stiffness, &g, -0.5 * h, &g_end, 1.0);
+            Evaluation { residual, jacobian, known: y }
         })
-        .map_err(|failure| StepError {
-            step: self.steps,
-            h,
-            time_s: self.steps as f64 * h,
-            failure: failure.into(),
-        })?;
+        .map_err(|failure| progress.error(failure))?;
+        on_branch_of_short_steps(&root.at.jacobian).map_err(|failure| progress.error(failure))?;
         for i in 0..N {
-            self.p[i] = 2.0 * masses[i] * root.x[i] - self.p[i];
-            self.q[i] += h * root.x[i];
+            self.p[i] = root.x[i] * (2.0 * masses[i]) - self.p[i];
         }
+        self.x = root.at.known;
         self.lambda = std::array::from_fn(|c| root.x[N + c]);
-        self.steps += 1;
-        self.iterations += u64::from(root.iterations);
+        self.progress.solved(&root);
+        self.progress.advance();
         Ok(())
+    }
+
+    fn configuration(&self) -> &[D; N] {
+        &self.x
+    }
+
+    fn velocity(&self) -> Result<[D; N], StepError> {
+        Ok(self.rates())
+    }
+
+    fn progress(&self) -> &Progress {
+        &self.progress
+    }
+}
+
+/// What (1) adds to the gradient at the midpoint; nothing for polynomials of degree two.
+struct Gap<D> {
+    /// `e/(h d·d)`
+    share: D,
+    /// `d·d`
+    square: D,
+}
+
+impl<D: Scalar> Gap<D> {
+    /// From the gradient at the midpoint and the values at both ends, whose terms are of a known size.
+    fn new<const N: usize>(
+        slope: &[D; N],
+        d: &[D; N],
+        h: f64,
+        [begin, end]: [D; 2],
+        terms: f64,
+    ) -> Self {
+        let square: D = d.iter().map(|d| *d * *d).sum();
+        let work: D = slope.iter().zip(d).map(|(f, d)| *f * *d * h).sum();
+        let e = end - begin - work;
+        // Round-off of e, which must not be divided by a step that stands still.
+        let is_round_off = e.re().abs() <= 16.0 * f64::EPSILON * terms;
+        let share = if is_round_off { D::from(0.0) } else { e / (square * h) };
+        Self { share, square }
+    }
+
+    /// (1)
+    fn gradient<const N: usize>(&self, slope: &[D; N], d: &[D; N]) -> [D; N] {
+        std::array::from_fn(|i| slope[i] + d[i] * self.share)
+    }
+
+    /// Derivative of (1) with respect to `d`.
+    fn stiffness<const N: usize>(
+        &self,
+        slope: &[D; N],
+        slope_end: &[D; N],
+        bend: &[[D; N]; N],
+        d: &[D; N],
+        h: f64,
+    ) -> [[D; N]; N] {
+        let mut stiffness = bend.map(|row| row.map(|x| x * (0.5 * h)));
+        if self.share.re() != 0.0 {
+            for j in 0..N {
+                let carried: D = (0..N).map(|k| bend[j][k] * d[k]).sum();
+                // ∂e/∂d over h, and that of 1/(d·d).
+                let e = slope_end[j] - slope[j] - carried * (0.5 * h);
+                let change = e / self.square - self.share * d[j] * 2.0 / self.square;
+                for i in 0..N {
+                    stiffness[i][j] += d[i] * change;
+                }
+                stiffness[j][j] += self.share;
+            }
+        }
+        stiffness
     }
 }

@@ -9,103 +9,73 @@
 //! p := π − h/2 DᵀV(y) + h/2 Gᵀ(y) λ,  G(y) M⁻¹ p = 0                     (2)
 //! ```
 
-use super::StepError;
-use crate::mechanics::{Natural, jacobian};
-use crate::newton::{NewtonFailure, solve, solve_linear};
+use super::constrained_drift::{compliance, constrained_drift};
+use super::{Integrator, Progress, StepError};
+use crate::mechanics::{Natural, Scalar, jacobian, potential_force};
+use crate::newton::{NewtonFailure, solve_linear};
 
 /// A motion under RATTLE.
 #[derive(Clone, Debug)]
-pub struct Rattle<S, const N: usize, const C: usize> {
+pub struct Rattle<S, const N: usize, const C: usize, D = f64> {
     system: S,
-    h: f64,
-    x: [f64; N],
-    p: [f64; N],
-    gamma: [f64; C],
-    steps: u64,
+    x: [D; N],
+    p: [D; N],
+    gamma: [D; C],
+    /// `−DᵀV(x)`
+    force: [D; N],
+    /// `G(x)`
+    g: [[D; N]; C],
+    progress: Progress,
 }
 
-impl<S: Natural<N, C>, const N: usize, const C: usize> Rattle<S, N, C> {
+impl<S: Natural<N, C>, D: Scalar, const N: usize, const C: usize> Rattle<S, N, C, D> {
     /// From a configuration on the manifold, and a velocity along it.
-    pub fn new(system: S, h: f64, x: [f64; N], v_dot: &[f64; N]) -> Self {
+    pub fn new(system: S, h: f64, x: [D; N], v_dot: &[D; N]) -> Self {
         let masses = system.masses();
-        let p = std::array::from_fn(|i| masses[i] * v_dot[i]);
-        Self { system, h, x, p, gamma: [0.0; C], steps: 0 }
+        let p = std::array::from_fn(|i| v_dot[i] * masses[i]);
+        let force = potential_force(&system, &x);
+        let (_, g) = jacobian(&x, |q| system.constraints(q));
+        let gamma = [D::from(0.0); C];
+        Self { system, x, p, gamma, force, g, progress: Progress::new(h) }
+    }
+}
+
+impl<S: Natural<N, C>, D: Scalar, const N: usize, const C: usize> Integrator<N, D>
+    for Rattle<S, N, C, D>
+{
+    fn step(&mut self) -> Result<(), StepError> {
+        let Self { system, x, p, gamma, force, g, progress } = &*self;
+        let half = 0.5 * progress.h;
+        let masses = system.masses();
+        let mut after = *progress;
+        let kicked = std::array::from_fn(|i| p[i] + force[i] * half);
+        let drift = constrained_drift(system, (x, g), &kicked, half, *gamma, &mut after)?;
+        // (2)
+        let g = drift.g_end;
+        let force = potential_force(system, &drift.end);
+        let free: [D; N] = std::array::from_fn(|i| drift.momentum[i] + force[i] * half);
+        let along = g.map(|row| -> D { (0..N).map(|i| -row[i] * free[i] / masses[i]).sum() });
+        let lambda = solve_linear(compliance(&g, &g, &masses, half), along)
+            .map_err(|pivot| progress.error(NewtonFailure::SingularJacobian { pivot }))?;
+        self.p = std::array::from_fn(|i| {
+            (0..C).fold(free[i], |sum, c| sum + g[c][i] * lambda[c] * half)
+        });
+        (self.x, self.gamma, self.force, self.g) = (drift.end, drift.gamma, force, g);
+        after.advance();
+        self.progress = after;
+        Ok(())
     }
 
-    /// The configuration.
-    pub fn configuration(&self) -> &[f64; N] {
+    fn configuration(&self) -> &[D; N] {
         &self.x
     }
 
-    /// The velocity, `M⁻¹ p`.
-    pub fn velocity(&self) -> [f64; N] {
+    fn velocity(&self) -> Result<[D; N], StepError> {
         let masses = self.system.masses();
-        std::array::from_fn(|i| self.p[i] / masses[i])
+        Ok(std::array::from_fn(|i| self.p[i] / masses[i]))
     }
 
-    /// One step.
-    ///
-    /// # Errors
-    /// A [`StepError`]; the motion is then where it was.
-    pub fn step(&mut self) -> Result<(), StepError> {
-        let error = |failure: NewtonFailure| StepError {
-            step: self.steps,
-            h: self.h,
-            time_s: self.steps as f64 * self.h,
-            failure: failure.into(),
-        };
-        let Self { system, h, x, p, .. } = &*self;
-        let h = *h;
-        let masses = system.masses();
-        let half_kick = |q: &[f64; N]| {
-            let (_, [slope]) = jacobian(q, |q| [system.potential(q)]);
-            slope.map(|slope| -0.5 * h * slope)
-        };
-        let (_, g) = jacobian(x, |q| system.constraints(q));
-        let kick = half_kick(x);
-        // (1), in γ alone.
-        let halfway = |gamma: &[f64; C]| -> [f64; N] {
-            std::array::from_fn(|i| {
-                let push: f64 = g.iter().zip(gamma).map(|(g, gamma)| g[i] * gamma).sum();
-                p[i] + kick[i] + 0.5 * h * push
-            })
-        };
-        let drift = |half: &[f64; N]| -> [f64; N] {
-            std::array::from_fn(|i| x[i] + h * half[i] / masses[i])
-        };
-        let extent = x.iter().fold(1.0_f64, |m, q| m.max(q * q));
-        let root = solve::<C>(self.gamma, &[extent; C], |gamma| {
-            let (values, end) = jacobian(&drift(&halfway(gamma)), |q| system.constraints(q));
-            (values, scaled(&end, &g, &masses, 0.5 * h * h))
-        })
-        .map_err(error)?;
-        let half = halfway(&root.x);
-        let y = drift(&half);
-        // (2)
-        let (_, end) = jacobian(&y, |q| system.constraints(q));
-        let kick = half_kick(&y);
-        let free: [f64; N] = std::array::from_fn(|i| half[i] + kick[i]);
-        let along = end.map(|row| -> f64 { (0..N).map(|i| row[i] * free[i] / masses[i]).sum() });
-        let lambda = solve_linear(scaled(&end, &end, &masses, 0.5 * h), along.map(|x| -x))
-            .map_err(|pivot| error(NewtonFailure::SingularJacobian { pivot }))?;
-        self.p = std::array::from_fn(|i| {
-            free[i] + 0.5 * h * (0..C).map(|c| end[c][i] * lambda[c]).sum::<f64>()
-        });
-        self.x = y;
-        self.gamma = root.x;
-        self.steps += 1;
-        Ok(())
+    fn progress(&self) -> &Progress {
+        &self.progress
     }
-}
-
-/// `factor · A M⁻¹ Bᵀ`
-fn scaled<const N: usize, const C: usize>(
-    a: &[[f64; N]; C],
-    b: &[[f64; N]; C],
-    masses: &[f64; N],
-    factor: f64,
-) -> [[f64; C]; C] {
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| factor * (0..N).map(|k| a[i][k] * b[j][k] / masses[k]).sum::<f64>())
-    })
 }

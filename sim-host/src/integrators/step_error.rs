@@ -26,4 +26,7 @@ pub enum StepFailure {
     /// motion that went on from it would be another one.
     #[error("the step is too long: its root is on another branch than that of short steps")]
     WrongBranch,
+    /// The adaptive method's own steps have become too short or too many.
+    #[error("the adaptive method cannot meet its tolerance")]
+    Adaptive,
 }

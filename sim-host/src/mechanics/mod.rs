@@ -6,17 +6,22 @@
 //!      𝕃, g ─ exact derivatives ─► discrete Euler–Lagrange equations, Jacobian, momenta
 //! ```
 
+mod acceleration;
+mod differentiation;
 mod discrete_lagrangian;
 mod generalized;
 mod lagrangian;
 mod natural;
-mod partials;
+mod scalar;
+mod symplectic_form;
 pub mod systems;
-mod tangent;
 
+pub use acceleration::{acceleration, saddle};
+pub use differentiation::{Momenta, augmented, bend, hessian, jacobian};
 pub use discrete_lagrangian::{DiscreteLagrangian, Endpoint, Midpoint};
 pub use generalized::{Chart, Generalized};
-pub use lagrangian::{Lagrangian, Scalar};
+pub use lagrangian::Lagrangian;
 pub use natural::Natural;
-pub use partials::{Momenta, augmented, hessian, jacobian, momenta};
-pub use tangent::{Displacement, carried, symplectic_form};
+pub(crate) use natural::potential_force;
+pub use scalar::Scalar;
+pub use symplectic_form::{Displacement, symplectic_form};

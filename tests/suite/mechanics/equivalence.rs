@@ -1,10 +1,14 @@
 //! Theorem 2.1: constrained and generalized coordinates give the same discrete trajectory.
 
-use surefoot_sim::integrators::{Rattle, Variational};
+use super::systems::{PENDULUM, pendulum};
+use surefoot_sim::integrators::{Form, Integrator, Method, Rattle, Shake, Variational};
 use surefoot_sim::mechanics::systems::{
     DoubleSphericalPendulum, PendulumAngles, PolarAngles, SphericalPendulum,
 };
-use surefoot_sim::mechanics::{Chart, DiscreteLagrangian, Endpoint, Generalized, Midpoint};
+use surefoot_sim::mechanics::{
+    Chart, DiscreteLagrangian, Endpoint, Generalized, Lagrangian, Midpoint, Momenta, Natural,
+    Scalar,
+};
 
 /// Largest distance of the two trajectories over 1000 steps, from the same two points.
 fn distance<S, K, const N: usize, const C: usize, const U: usize, const M: usize>(
@@ -70,7 +74,7 @@ fn the_endpoint_rule_gives_rattles_positions() {
     for _ in 0..1000 {
         rattle.step().expect("a step");
         shake.step().expect("a step");
-        let (x, v) = (rattle.configuration(), rattle.velocity());
+        let (x, v) = (rattle.configuration(), rattle.velocity().expect("a velocity"));
         for (a, b) in x.iter().zip(shake.configuration()) {
             apart = apart.max((a - b).abs());
         }
@@ -80,4 +84,139 @@ fn the_endpoint_rule_gives_rattles_positions() {
     }
     println!("positions {apart:.1e} m apart, hidden constraint {hidden:.1e} m²/s");
     assert!(apart < 1e-10 && hidden < 1e-11, "{apart} {hidden}");
+}
+
+/// SHAKE's two forms, and the variational method they follow from, show the same positions; the form in
+/// positions with more round-off.
+#[test]
+fn shake_in_both_forms_is_the_variational_method() {
+    let (q, v) = PENDULUM.printed_start();
+    let h = 0.01;
+    let start = |form| Shake::<_, 6, 2>::new(PENDULUM, form, h, q, v).expect("a first step");
+    let (mut positions, mut velocities) = (start(Form::Positions), start(Form::Velocities));
+    let mut variational = Variational::<_, 6, 2, 8>::from_velocity(Endpoint(PENDULUM), h, q, v);
+    let mut apart = [0.0_f64; 2];
+    for _ in 0..1000 {
+        positions.step().expect("a step");
+        velocities.step().expect("a step");
+        variational.step().expect("a step");
+        for (apart, shake) in apart.iter_mut().zip([&positions, &velocities]) {
+            for (a, b) in shake.configuration().iter().zip(variational.configuration()) {
+                *apart = apart.max((a - b).abs());
+            }
+        }
+    }
+    println!("SHAKE in positions {:.1e} m, in velocities {:.1e} m away", apart[0], apart[1]);
+    assert!(apart[0] < 1e-8 && apart[1] < 1e-10, "{apart:?}");
+}
+
+/// For quadratic constraints and a linear potential (`errata.md`'s remark on §2.4.2).
+#[test]
+fn the_energy_momentum_method_is_the_implicit_midpoint_rule_here() {
+    let start = |method| pendulum(method, 0.01).expect("a start");
+    let (mut a, mut b) = (start(Method::EnergyMomentum), start(Method::ImplicitMidpoint));
+    let mut apart = 0.0_f64;
+    for _ in 0..1000 {
+        a.step().expect("a step");
+        b.step().expect("a step");
+        for (a, b) in a.configuration().iter().zip(b.configuration()) {
+            apart = apart.max((a - b).abs());
+        }
+    }
+    println!("{apart:.1e} m apart");
+    assert!(apart < 1e-9, "{apart}");
+}
+
+/// The same Lagrangian with none of its derivatives written out.
+#[derive(Clone, Copy)]
+struct Plain<S>(S);
+
+impl<const N: usize, const C: usize, S: Natural<N, C>> Lagrangian<N, C> for Plain<S> {
+    fn lagrangian<D: Scalar>(&self, v: &[D; N], v_dot: &[D; N]) -> D {
+        self.0.lagrangian(v, v_dot)
+    }
+
+    fn constraints<D: Scalar>(&self, v: &[D; N]) -> [D; C] {
+        Lagrangian::constraints(&self.0, v)
+    }
+}
+
+/// What natural systems write out is what differentiation gives.
+#[test]
+fn written_derivatives_are_the_automatic_ones() {
+    let (q, v) = PENDULUM.printed_start();
+    let relative = |a: f64, b: f64| (a - b).abs() / (1.0 + b.abs());
+    let worst = |a: &Momenta<6>, b: &Momenta<6>| {
+        let rows =
+            |m: &Momenta<6>| [m.begin.to_vec(), m.end.to_vec(), m.stiffness.concat()].concat();
+        rows(a).into_iter().zip(rows(b)).fold(0.0, |m: f64, (a, b)| m.max(relative(a, b)))
+    };
+    let stretched = Stretched { stiffness: 40.0, length: 1.2 };
+    for h in [0.0, 1e-3, 0.2] {
+        let (plain, written) = (Plain(PENDULUM), PENDULUM);
+        assert!(
+            worst(&Midpoint(written).momenta(&q, &v, h), &Midpoint(plain).momenta(&q, &v, h))
+                < 1e-14
+        );
+        assert!(
+            worst(&Endpoint(written).momenta(&q, &v, h), &Endpoint(plain).momenta(&q, &v, h))
+                < 1e-14
+        );
+        assert!(
+            worst(&Endpoint(written).start(&q, &v, h), &Endpoint(plain).start(&q, &v, h)) < 1e-14
+        );
+        let (midpoint, plain) = (Midpoint(stretched), Midpoint(Plain(stretched)));
+        assert!(worst(&midpoint.momenta(&q, &v, h), &plain.momenta(&q, &v, h)) < 1e-13);
+    }
+    let (a, b) = (PENDULUM.inertia_and_force(&q, &v), Plain(PENDULUM).inertia_and_force(&q, &v));
+    assert_eq!(a.0, b.0);
+    assert!(a.1.iter().zip(b.1).all(|(a, b)| relative(*a, b) < 1e-14));
+}
+
+/// Two masses and a spring between them: a potential whose second derivatives are not zero.
+#[derive(Clone, Copy)]
+struct Stretched {
+    stiffness: f64,
+    length: f64,
+}
+
+impl Natural<6, 0> for Stretched {
+    fn masses(&self) -> [f64; 6] {
+        [2.0, 2.0, 2.0, 3.5, 3.5, 3.5]
+    }
+
+    fn potential<D: Scalar>(&self, q: &[D; 6]) -> D {
+        let d: [D; 3] = std::array::from_fn(|i| q[3 + i] - q[i]);
+        let stretch = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt() - self.length;
+        stretch * stretch * (0.5 * self.stiffness)
+    }
+
+    fn constraints<D: Scalar>(&self, _: &[D; 6]) -> [D; 0] {
+        []
+    }
+}
+
+/// Two particles on a spring: momentum and energy by the energy-momentum method are those of the start,
+/// energy exactly although the potential is no polynomial.
+#[test]
+fn the_discrete_gradient_conserves_energy_of_any_potential() {
+    let system = Stretched { stiffness: 40.0, length: 1.2 };
+    let (q, v) = PENDULUM.printed_start();
+    let mut motion = surefoot_sim::integrators::start_natural::<_, f64, 6, 0, 6>(
+        Method::EnergyMomentum,
+        system,
+        0.05,
+        q,
+        v,
+    )
+    .expect("a start");
+    let energy = system.energy(&q, &v);
+    let mut largest = 0.0_f64;
+    for _ in 0..10_000 {
+        motion.step().expect("a step");
+        let v = motion.velocity().expect("a velocity");
+        largest = largest.max((system.energy(motion.configuration(), &v) / energy - 1.0).abs());
+    }
+    println!("energy changes by {largest:.1e}");
+    assert!(largest < 1e-11, "{largest}");
 }

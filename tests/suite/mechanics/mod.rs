@@ -4,4 +4,5 @@ mod convergence;
 mod equivalence;
 mod invariants;
 mod limits;
+mod systems;
 mod tables;

@@ -1,43 +1,37 @@
-//! Tables 2.1 and 2.2.
+//! Tables 2.1 and 2.2, and what is drawn of them.
 
-use surefoot_sim::experiments::{Comparison, table_2_1, table_2_2};
+use surefoot_sim::experiments::{Comparison, double_pendulum, free_body};
 
-/// Relative difference of a row, by its name.
-fn difference(rows: &[Comparison], figure: &str) -> f64 {
-    let row = rows.iter().find(|row| row.figure == figure).expect(figure);
-    row.relative_difference.expect("a printed value").abs()
+/// Figures that are farther from the printed ones than asked for.
+fn missed(rows: &[Comparison]) -> Vec<&str> {
+    rows.iter().filter(|row| row.met == Some(false)).map(|row| row.figure.as_str()).collect()
 }
 
-/// To the last printed digit but at 1e-4, where the printed energy is the round-off of its day.
+/// All four printed digits; at 1e-4 1 % of the energy.
 #[test]
 fn table_2_1_is_reproduced() {
-    let rows = table_2_1().expect("all steps are made");
-    for h in ["1e-3", "1e-2", "1e-1"] {
-        for what in ["quaternion error", "energy error", "momentum error"] {
-            // Half a unit in the last of four digits is at most 5e-4; of 3.648 it is 1.4e-4.
-            let difference = difference(&rows, &format!("{what}, h = {h} s"));
-            assert!(difference < 3e-4, "{what}, {h}: {difference}");
+    let runs = free_body::Runs::new().expect("all steps are made");
+    let rows = runs.table_2_1();
+    assert_eq!(rows.iter().filter(|row| row.met.is_some()).count(), 10);
+    assert_eq!(missed(&rows), [""; 0]);
+    for figure in runs.figures() {
+        for row in figure.rows.iter().filter(|row| row.figure.starts_with("slope from")) {
+            assert!(row.relative_difference.is_some_and(|d| d.abs() < 1e-3), "{row:?}");
         }
     }
-    assert!(difference(&rows, "energy error, h = 1e-4 s") < 0.01);
-    assert!(difference(&rows, "momentum error, h = 1e-4 s") < 1e-3);
 }
 
-/// From the rounded initial values that are printed. At 1e-4, where the start's error is as large as the
-/// method's, the differences are larger.
+/// To 0.4 % but for two rows at 1e-4, by 0.6 and 1.0 %: known, and said by `surefoot reproduce`. Other
+/// initial values that round to the printed ones do not mend them; the round-off of SHAKE in positions
+/// changes them by as much.
 #[test]
 fn table_2_2_is_reproduced() {
-    let rows = table_2_2().expect("all steps are made");
-    for (h, limit) in [("1e-4", 0.011), ("1e-3", 4e-3), ("1e-2", 4e-3), ("1e-1", 4e-3)] {
-        for what in ["position error", "energy error", "momentum error"] {
-            let difference = difference(&rows, &format!("DVP: {what}, h = {h} s"));
-            assert!(difference < limit, "{what}, {h}: {difference}");
-        }
-        let energy = rows.iter().find(|r| r.figure == format!("EM: energy error, h = {h} s"));
-        assert!(energy.expect("a row").ours < 1e-10);
-    }
-    for h in ["1e-3", "1e-2", "1e-1"] {
-        let difference = difference(&rows, &format!("EM: position error, h = {h} s"));
-        assert!(difference < 4e-3, "{h}: {difference}");
+    let runs = double_pendulum::Runs::new().expect("all steps are made");
+    let rows = runs.table_2_2();
+    assert!(rows.iter().all(|row| row.met.is_some()));
+    let known = ["DVP: position error, h = 1e-4 s", "DVP: energy error, h = 1e-4 s"];
+    assert_eq!(missed(&rows), known);
+    for row in rows.iter().filter(|row| known.contains(&row.figure.as_str())) {
+        assert!(row.relative_difference.is_some_and(|d| d.abs() < 0.011), "{row:?}");
     }
 }

@@ -1,6 +1,6 @@
 //! §2.4.1: a free rigid body in unit quaternions (scalar first), `V = ℝ⁴`.
 
-use crate::mechanics::{DiscreteLagrangian, Scalar, momenta};
+use crate::mechanics::{DiscreteLagrangian, Lagrangian, Scalar};
 
 /// A rigid body with principal inertias, turning freely.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,26 +14,51 @@ impl FreeRigidBody {
     pub const PRINTED: Self = Self { inertia: [1.0, 2.0, 3.0] };
 
     /// Body angular velocity of a step: `2 vec(x̄ ⋆ d)`, which is `2 vec(x̄ ⋆ y)/h`, rad/s.
-    pub fn angular_velocity(x: &[f64; 4], d: &[f64; 4]) -> [f64; 3] {
+    pub fn angular_velocity<D: Scalar>(x: &[D; 4], d: &[D; 4]) -> [D; 3] {
         let [_, a, b, c] = conjugate_product(x, d);
-        [a, b, c].map(|component| 2.0 * component)
+        [a, b, c].map(|component| component * 2.0)
+    }
+
+    /// The rate of a quaternion, `q ⋆ (0, ω/2)`, 1/s.
+    pub fn rate<D: Scalar>(q: &[D; 4], omega: &[D; 3]) -> [D; 4] {
+        let [a, b, c] = omega.map(|component| component * 0.5);
+        product(q, &[D::from(0.0), a, b, c])
+    }
+
+    /// A quaternion turned by a Cayley vector `a`: `q ⋆ (1, a/2)`, normalized.
+    pub fn turned<D: Scalar>(q: &[D; 4], a: &[D; 3]) -> [D; 4] {
+        let [x, y, z] = a.map(|component| component * 0.5);
+        let norm = (x * x + y * y + z * z + 1.0).sqrt();
+        product(q, &[D::from(1.0), x, y, z]).map(|component| component / norm)
     }
 
     /// `½ ωᵀ I ω`, J.
-    pub fn energy(&self, omega: &[f64; 3]) -> f64 {
+    pub fn kinetic_energy(&self, omega: &[f64; 3]) -> f64 {
         0.5 * omega.iter().zip(&self.inertia).map(|(w, i)| i * w * w).sum::<f64>()
     }
 
     /// Spatial angular momentum of a step: the momentum map (2.22) of left multiplication by unit
     /// quaternions, `½ ⟨−h D₂𝕃, ξ ⋆ x⟩` for the three units `ξ`, N·m·s.
     pub fn discrete_momentum(&self, x: &[f64; 4], d: &[f64; 4], h: f64) -> [f64; 3] {
-        let p = momenta(self, x, d, h).begin;
+        let p = self.momenta(x, d, h).begin;
         [1, 2, 3].map(|unit| {
             let mut xi = [0.0; 4];
             xi[unit] = 1.0;
             let along = product(&xi, x);
             0.5 * p.iter().zip(&along).map(|(p, d)| p * d).sum::<f64>()
         })
+    }
+}
+
+/// (2.46)
+impl Lagrangian<4, 1> for FreeRigidBody {
+    fn lagrangian<D: Scalar>(&self, q: &[D; 4], q_dot: &[D; 4]) -> D {
+        let omega = Self::angular_velocity(q, q_dot);
+        omega.into_iter().zip(self.inertia).map(|(w, i)| w * w * (0.5 * i)).sum()
+    }
+
+    fn constraints<D: Scalar>(&self, q: &[D; 4]) -> [D; 1] {
+        unit_norm(q)
     }
 }
 
@@ -51,8 +76,12 @@ impl DiscreteLagrangian<4, 1> for FreeRigidBody {
     }
 
     fn constraints<D: Scalar>(&self, v: &[D; 4]) -> [D; 1] {
-        [v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + v[3] * v[3] - 1.0]
+        unit_norm(v)
     }
+}
+
+fn unit_norm<D: Scalar>(q: &[D; 4]) -> [D; 1] {
+    [q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1.0]
 }
 
 /// `a ⋆ b`

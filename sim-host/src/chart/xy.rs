@@ -1,0 +1,192 @@
+//! One quantity against another, on plain or logarithmic axes.
+
+use super::style::{
+    COLORS, ChartError, LEGEND_WIDTH, PANEL_HEIGHT, Painted, TITLE_HEIGHT, WIDTH, label, names,
+    range,
+};
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
+use plotters::prelude::*;
+use std::path::Path;
+
+/// A named curve.
+#[derive(Clone, Debug)]
+pub struct XySeries {
+    /// Name in the legend.
+    pub name: String,
+    /// Points, in order.
+    pub points: Vec<(f64, f64)>,
+    /// Rings at the points instead of a curve through them, as for data of others.
+    pub rings: bool,
+}
+
+impl XySeries {
+    /// A curve.
+    pub fn curve(name: impl Into<String>, points: impl Iterator<Item = (f64, f64)>) -> Self {
+        Self { name: name.into(), points: points.collect(), rings: false }
+    }
+
+    /// `y` against `x`.
+    pub fn against(name: impl Into<String>, x: &[f64], y: &[f64]) -> Self {
+        Self::curve(name, x.iter().copied().zip(y.iter().copied()))
+    }
+
+    /// The same as rings.
+    pub fn rings(self) -> Self {
+        Self { rings: true, ..self }
+    }
+}
+
+/// A chart, and perhaps others below it.
+#[derive(Clone, Debug)]
+pub struct XyChart {
+    title: String,
+    x_axis: String,
+    y_axis: String,
+    logarithmic: bool,
+    series: Vec<XySeries>,
+    below: Vec<XyChart>,
+}
+
+impl XyChart {
+    /// Empty, on plain axes.
+    pub fn new(title: impl Into<String>, x_axis: &str, y_axis: &str) -> Self {
+        Self {
+            title: title.into(),
+            x_axis: x_axis.to_owned(),
+            y_axis: y_axis.to_owned(),
+            logarithmic: false,
+            series: Vec::new(),
+            below: Vec::new(),
+        }
+    }
+
+    /// On logarithmic axes, with a mark at every point. Points that are not positive have no place
+    /// there and are left out.
+    pub fn logarithmic(self) -> Self {
+        Self { logarithmic: true, ..self }
+    }
+
+    /// With these curves.
+    pub fn with(self, series: Vec<XySeries>) -> Self {
+        Self { series, ..self }
+    }
+
+    /// With another chart below.
+    pub fn below(mut self, chart: Self) -> Self {
+        self.below.push(chart);
+        self
+    }
+
+    /// Draws it to an SVG file.
+    ///
+    /// # Errors
+    /// [`ChartError`] if the file cannot be written.
+    pub fn draw(&self, path: &Path) -> Result<(), ChartError> {
+        let panels = 1 + self.below.len() as u32;
+        let height = TITLE_HEIGHT + (PANEL_HEIGHT + 80) * panels;
+        let root = SVGBackend::new(path, (WIDTH, height)).into_drawing_area();
+        self.paint(&root).map_err(|error| ChartError::new(path, error.as_ref()))
+    }
+
+    fn paint(&self, root: &DrawingArea<SVGBackend<'_>, Shift>) -> Painted {
+        root.fill(&WHITE)?;
+        let areas = root.split_evenly((1 + self.below.len(), 1));
+        for (chart, area) in std::iter::once(self).chain(&self.below).zip(areas) {
+            let area = area.titled(&chart.title, ("sans-serif", 20))?;
+            let (plot, legend) = area.split_horizontally(WIDTH - LEGEND_WIDTH);
+            let (x, y) = (chart.range(|(x, _)| x), chart.range(|(_, y)| y));
+            if chart.logarithmic {
+                let axes = ((x.0..x.1).log_scale(), (y.0..y.1).log_scale());
+                chart.axes(&plot, axes, &power, &power)?;
+            } else {
+                let x_label = |v: &f64| label(*v, x.1 - x.0);
+                let y_label = |v: &f64| label(*v, y.1 - y.0);
+                chart.axes(&plot, (x.0..x.1, y.0..y.1), &x_label, &y_label)?;
+            }
+            names(&legend, chart.series.iter().map(|series| (series.name.as_str(), series.rings)))?;
+        }
+        root.present()?;
+        Ok(())
+    }
+
+    fn axes<X, Y>(
+        &self,
+        area: &DrawingArea<SVGBackend<'_>, Shift>,
+        (x, y): (X, Y),
+        x_label: &dyn Fn(&f64) -> String,
+        y_label: &dyn Fn(&f64) -> String,
+    ) -> Painted
+    where
+        X: AsRangedCoord<Value = f64>,
+        Y: AsRangedCoord<Value = f64>,
+        X::CoordDescType: ValueFormatter<f64>,
+        Y::CoordDescType: ValueFormatter<f64>,
+    {
+        let mut chart = ChartBuilder::on(area)
+            .margin_left(10)
+            .margin_right(12)
+            .margin_bottom(6)
+            .margin_top(12)
+            .x_label_area_size(42)
+            .y_label_area_size(78)
+            .build_cartesian_2d(x, y)?;
+        chart
+            .configure_mesh()
+            .x_desc(&self.x_axis)
+            .y_desc(&self.y_axis)
+            .x_labels(8)
+            .y_labels(8)
+            .x_label_formatter(x_label)
+            .y_label_formatter(y_label)
+            .label_style(("sans-serif", 13))
+            .axis_desc_style(("sans-serif", 14))
+            .light_line_style(WHITE)
+            .bold_line_style(RGBColor(220, 220, 220))
+            .draw()?;
+        for (i, series) in self.series.iter().enumerate() {
+            let color = COLORS[i % COLORS.len()];
+            let points = self.shown(series);
+            if series.rings {
+                let style = color.stroke_width(2);
+                chart.draw_series(points.map(|point| Circle::new(point, 7, style)))?;
+                continue;
+            }
+            if i < COLORS.len() {
+                chart.draw_series(LineSeries::new(points.clone(), color.stroke_width(2)))?;
+            } else {
+                let style = color.stroke_width(2);
+                chart.draw_series(DashedLineSeries::new(points.clone(), 7, 4, style))?;
+            }
+            if self.logarithmic {
+                chart.draw_series(points.map(|point| Circle::new(point, 3, color.filled())))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn shown<'a>(&self, series: &'a XySeries) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
+        let logarithmic = self.logarithmic;
+        series.points.iter().copied().filter(move |(x, y)| {
+            x.is_finite() && y.is_finite() && !(logarithmic && (*x <= 0.0 || *y <= 0.0))
+        })
+    }
+
+    /// Range of one coordinate; whole powers of ten on logarithmic axes.
+    fn range(&self, of: impl Fn((f64, f64)) -> f64 + Clone) -> (f64, f64) {
+        let values = self.series.iter().flat_map(|series| self.shown(series)).map(of);
+        if !self.logarithmic {
+            return range(values);
+        }
+        let low = values.clone().fold(f64::INFINITY, f64::min);
+        let high = values.fold(0.0, f64::max);
+        if low > high {
+            return (0.1, 1.0);
+        }
+        (10_f64.powf(low.log10().floor() - 0.05), 10_f64.powf(high.log10().ceil() + 0.05))
+    }
+}
+
+fn power(value: &f64) -> String {
+    format!("{value:.0e}")
+}

@@ -1,0 +1,75 @@
+//! What every method is: something that makes steps.
+
+use super::{StepError, StepFailure};
+use crate::mechanics::Scalar;
+use crate::newton::Root;
+
+/// A motion under one method. In numbers that carry derivatives it carries those of its start along:
+/// the method's tangent map, exactly.
+pub trait Integrator<const N: usize, D: Scalar = f64> {
+    /// One step.
+    ///
+    /// # Errors
+    /// A [`StepError`]; the motion is then where it was.
+    fn step(&mut self) -> Result<(), StepError>;
+
+    /// The configuration.
+    fn configuration(&self) -> &[D; N];
+
+    /// The velocity there, of the method's order, along the manifold for methods that know one.
+    ///
+    /// # Errors
+    /// For methods that keep a momentum, where it belongs to no velocity.
+    fn velocity(&self) -> Result<[D; N], StepError>;
+
+    /// Time and statistics.
+    fn progress(&self) -> &Progress;
+}
+
+/// How far a motion is, and what it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Step, s.
+    pub h: f64,
+    /// Time, s.
+    pub time_s: f64,
+    /// Steps made.
+    pub steps: u64,
+    /// Newton iterations in all.
+    pub iterations: u64,
+    /// Newton iterations of the step that took most.
+    pub most_iterations: u32,
+    /// Largest residual left, relative to its terms.
+    pub residual: f64,
+}
+
+impl Progress {
+    /// At the start.
+    pub fn new(h: f64) -> Self {
+        Self { h, time_s: 0.0, steps: 0, iterations: 0, most_iterations: 0, residual: 0.0 }
+    }
+
+    /// Newton iterations a step, on average.
+    pub fn mean_iterations(&self) -> f64 {
+        self.iterations as f64 / self.steps.max(1) as f64
+    }
+
+    /// The error of a step that could not be made from here.
+    pub fn error(&self, failure: impl Into<StepFailure>) -> StepError {
+        StepError { step: self.steps, h: self.h, time_s: self.time_s, failure: failure.into() }
+    }
+
+    /// A step has been made, without iterations.
+    pub(super) fn advance(&mut self) {
+        self.steps += 1;
+        // Not by addition, whose round-off would add up.
+        self.time_s = self.steps as f64 * self.h;
+    }
+
+    /// A step's equations have been solved, or a part of them.
+    pub(super) fn solved<T, const U: usize, D>(&mut self, root: &Root<T, U, D>) {
+        self.iterations += u64::from(root.iterations);
+        self.most_iterations = self.most_iterations.max(root.iterations);
+        self.residual = self.residual.max(root.residual);
+    }
+}
