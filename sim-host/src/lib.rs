@@ -22,3 +22,4 @@ pub mod newton;
 pub mod plant;
 pub mod record;
 pub mod scene;
+pub mod stability;

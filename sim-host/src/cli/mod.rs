@@ -3,6 +3,7 @@
 //! Results go to stdout, progress and messages to stderr. Exit status: 0 done, 1 the run failed for
 //! a stated reason, 2 bad usage or input.
 
+mod chart;
 mod controller;
 mod list;
 mod report;
@@ -24,8 +25,10 @@ struct Cli {
 enum Command {
     /// Run a scene and report (default: experiment-1)
     Run(run::Options),
-    /// Reproduce the dissertation's tables: ours beside the printed figures
+    /// Reproduce the dissertation's tables and figures: ours beside the printed ones
     Reproduce(reproduce::Options),
+    /// Chart what methods can do
+    Chart(chart::Options),
     /// List scenes, integrators and robots
     List(list::Options),
 }
@@ -42,6 +45,7 @@ pub fn main() -> ExitCode {
         None => run::run(&run::Options::parse_from(["run"])),
         Some(Command::Run(options)) => run::run(&options),
         Some(Command::Reproduce(options)) => reproduce::reproduce(&options),
+        Some(Command::Chart(options)) => chart::chart(&options),
         Some(Command::List(options)) => list::list(&options),
     }
 }

@@ -14,8 +14,11 @@
 //! energy. With `p^{n+½} = M d` (2) is the printed set; its multipliers are of the other sign, and halved.
 
 use super::branch::on_branch_of_short_steps;
-use super::{Integrator, Progress, StepError, scale};
-use crate::mechanics::{Natural, Scalar, augmented, hessian, jacobian, saddle};
+use super::scale::{self, Largest};
+use super::{Integrator, Progress, StepError};
+use crate::mechanics::{
+    DiscreteLagrangian, Midpoint, Natural, Scalar, augmented, hessian, jacobian, saddle,
+};
 use crate::newton::{Evaluation, solve};
 use num_dual::Dual;
 
@@ -26,18 +29,24 @@ pub struct EnergyMomentum<S, const N: usize, const C: usize, const U: usize, D =
     x: [D; N],
     p: [D; N],
     lambda: [D; C],
+    largest: Largest,
     progress: Progress,
 }
 
 impl<S, D: Scalar, const N: usize, const C: usize, const U: usize> EnergyMomentum<S, N, C, U, D>
 where
-    S: Natural<N, C>,
+    S: Natural<N, C> + Clone,
 {
     /// From a configuration on the manifold, and a velocity along it.
     pub fn new(system: S, h: f64, x: [D; N], v_dot: &[D; N]) -> Self {
         let masses = system.masses();
         let p = std::array::from_fn(|i| v_dot[i] * masses[i]);
-        Self { system, x, p, lambda: [D::from(0.0); C], progress: Progress::new(h) }
+        // The step's momenta are those of the midpoint rule.
+        let mut largest = Largest::new(&Midpoint(system.clone()).momenta(&x, v_dot, h), v_dot);
+        let lightest = masses.iter().copied().fold(f64::INFINITY, f64::min);
+        largest.speed = largest.speed.max(largest.momentum / lightest);
+        let lambda = [D::from(0.0); C];
+        Self { system, x, p, lambda, largest, progress: Progress::new(h) }
     }
 
     fn rates(&self) -> [D; N] {
@@ -49,16 +58,16 @@ where
 impl<S, D: Scalar, const N: usize, const C: usize, const U: usize> Integrator<N, D>
     for EnergyMomentum<S, N, C, U, D>
 where
-    S: Natural<N, C>,
+    S: Natural<N, C> + Clone,
 {
     fn step(&mut self) -> Result<(), StepError> {
-        let Self { system, x, p, lambda, progress } = &*self;
+        let Self { system, x, p, lambda, largest, progress } = &*self;
         let h = progress.h;
         let masses = system.masses();
         let rates = self.rates();
         let start = std::array::from_fn(|i| if i < N { rates[i] } else { lambda[i - N] });
-        let (momentum, rate) = (scale::largest(p), scale::constraint_rate(x, &rates));
-        let scale = std::array::from_fn(|i| if i < N { momentum } else { rate });
+        let rate = largest.constraint_rate(x);
+        let scale = std::array::from_fn(|i| if i < N { largest.momentum } else { rate });
         let extent = scale::constraint(x);
         let (potential, constraints) = (system.potential(x), system.constraints(x));
         let root = solve(start, &scale, |unknowns: &[D; U]| {
@@ -115,6 +124,7 @@ where
             self.p[i] = root.x[i] * (2.0 * masses[i]) - self.p[i];
         }
         self.x = root.at.known;
+        self.largest.update(&self.p, &root.x[..N]);
         self.lambda = std::array::from_fn(|c| root.x[N + c]);
         self.progress.solved(&root);
         self.progress.advance();

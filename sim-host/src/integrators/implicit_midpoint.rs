@@ -11,7 +11,8 @@
 //! ```
 
 use super::branch::on_branch_of_short_steps;
-use super::{Integrator, Progress, StepError, Variational, scale};
+use super::scale::{self, Largest};
+use super::{Integrator, Progress, StepError, Variational};
 use crate::mechanics::{
     DiscreteLagrangian, Lagrangian, Midpoint, Scalar, augmented, hessian, jacobian, saddle,
 };
@@ -26,6 +27,7 @@ pub struct ImplicitMidpoint<S, const N: usize, const C: usize, const U: usize, D
     d: [D; N],
     p: [D; N],
     lambda: [D; C],
+    largest: Largest,
     progress: Progress,
 }
 
@@ -38,7 +40,8 @@ where
         let system = Midpoint(system);
         let p = system.start(&x, &v_dot, h).begin;
         let lambda = [D::from(0.0); C];
-        Self { system, x, d: v_dot, p, lambda, progress: Progress::new(h) }
+        let largest = Largest::new(&system.momenta(&x, &v_dot, h), &v_dot);
+        Self { system, x, d: v_dot, p, lambda, largest, progress: Progress::new(h) }
     }
 }
 
@@ -48,11 +51,11 @@ where
     S: Lagrangian<N, C> + Clone,
 {
     fn step(&mut self) -> Result<(), StepError> {
-        let Self { system, x, d, p, lambda, progress } = &*self;
+        let Self { system, x, d, p, lambda, largest, progress } = &*self;
         let h = progress.h;
         let start = std::array::from_fn(|i| if i < N { d[i] } else { lambda[i - N] });
-        let (momentum, extent) = (scale::largest(p), scale::constraint(x));
-        let scale = std::array::from_fn(|i| if i < N { momentum } else { extent });
+        let extent = scale::constraint(x);
+        let scale = std::array::from_fn(|i| if i < N { largest.momentum } else { extent });
         let root = solve(start, &scale, |unknowns: &[D; U]| {
             let d: [D; N] = std::array::from_fn(|i| unknowns[i]);
             let lambda: [D; C] = std::array::from_fn(|c| unknowns[N + c]);
@@ -84,6 +87,7 @@ where
         self.d = std::array::from_fn(|i| root.x[i]);
         self.lambda = std::array::from_fn(|c| root.x[N + c]);
         (self.x, self.p) = root.at.known;
+        self.largest.update(&self.p, &self.d);
         self.progress.solved(&root);
         self.progress.advance();
         Ok(())

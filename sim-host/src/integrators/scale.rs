@@ -1,6 +1,6 @@
 //! What residuals are differences of, and so what their round-off is relative to.
 
-use crate::mechanics::Scalar;
+use crate::mechanics::{Momenta, Scalar};
 
 /// Largest absolute value, above zero.
 pub(super) fn largest<D: Scalar>(values: &[D]) -> f64 {
@@ -12,7 +12,28 @@ pub(super) fn constraint<D: Scalar>(x: &[D]) -> f64 {
     largest(x).max(1.0).powi(2)
 }
 
-/// Size of the terms of constraints' rates along a velocity.
-pub(super) fn constraint_rate<D: Scalar>(x: &[D], v_dot: &[D]) -> f64 {
-    largest(x).max(1.0) * largest(v_dot)
+/// Largest momentum and speed so far: a motion that begins at rest, or comes to it, has none to go by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Largest {
+    pub momentum: f64,
+    pub speed: f64,
+}
+
+impl Largest {
+    /// Of a first step's momenta at both ends, which its forces tell apart, and its velocity. At rest
+    /// without forces nothing moves, and any scale does.
+    pub fn new<D: Scalar, const N: usize>(momenta: &Momenta<N, D>, v_dot: &[D]) -> Self {
+        let momentum = largest(&momenta.begin).max(largest(&momenta.end));
+        Self { momentum, speed: largest(v_dot) }
+    }
+
+    pub fn update<D: Scalar>(&mut self, momentum: &[D], d: &[D]) {
+        self.momentum = self.momentum.max(largest(momentum));
+        self.speed = self.speed.max(largest(d));
+    }
+
+    /// Size of the terms of constraints' rates, `Dg d`.
+    pub fn constraint_rate<D: Scalar>(&self, x: &[D]) -> f64 {
+        largest(x).max(1.0) * self.speed
+    }
 }

@@ -213,7 +213,7 @@ fn check_start<D: Scalar, const N: usize, const C: usize>(
     }
     let (values, rows) = jacobian(&x, constraints);
     let extent = ON_MANIFOLD * scale::constraint(&x);
-    let rates = ON_MANIFOLD * scale::constraint_rate(&x, &v_dot).max(1.0);
+    let rates = ON_MANIFOLD * scale::largest(&x).max(1.0) * scale::largest(&v_dot).max(1.0);
     for (constraint, (value, row)) in values.into_iter().zip(rows).enumerate() {
         let rate: f64 = row.iter().zip(&v_dot).map(|(g, v)| g * v).sum();
         if !(value.abs() <= extent && rate.abs() <= rates) {

@@ -15,7 +15,8 @@
 //! momentum. Writing (1) in `d` instead of `y` keeps the digits that `y − x` would lose.
 
 use super::branch::on_branch_of_short_steps;
-use super::{Integrator, Progress, StepError, scale};
+use super::scale::{self, Largest};
+use super::{Integrator, Progress, StepError};
 use crate::mechanics::{DiscreteLagrangian, Scalar, jacobian, saddle};
 use crate::newton::{Evaluation, solve};
 
@@ -28,6 +29,7 @@ pub struct Variational<S, const N: usize, const C: usize, const U: usize, D = f6
     /// `p⁺` of the last step.
     p: [D; N],
     mu: [D; C],
+    largest: Largest,
     pub(super) progress: Progress,
 }
 
@@ -45,8 +47,10 @@ where
 
     /// From a configuration on the manifold, its momentum, and a guess of its velocity.
     pub fn from_momentum(system: S, h: f64, x: [D; N], p: [D; N], velocity: [D; N]) -> Self {
+        let mut largest = Largest::new(&system.momenta(&x, &velocity, h), &velocity);
+        largest.update(&p, &velocity);
         let mu = [D::from(0.0); C];
-        Self { system, x, d: velocity, p, mu, progress: Progress::new(h) }
+        Self { system, x, d: velocity, p, mu, largest, progress: Progress::new(h) }
     }
 
     /// From a configuration on the manifold and its velocity, without spoiling the order.
@@ -76,11 +80,11 @@ where
     /// # Errors
     /// A [`StepError`]; the motion is then where it was.
     pub(super) fn step_by(&mut self, h: f64) -> Result<(), StepError> {
-        let Self { system, x, d, p, mu, progress } = &*self;
+        let Self { system, x, d, p, mu, largest, progress } = &*self;
         let (_, g) = jacobian(x, |v| system.constraints(v));
         let start = std::array::from_fn(|i| if i < N { d[i] } else { mu[i - N] });
-        let (momentum, extent) = (scale::largest(p), scale::constraint(x));
-        let scale = std::array::from_fn(|i| if i < N { momentum } else { extent });
+        let extent = scale::constraint(x);
+        let scale = std::array::from_fn(|i| if i < N { largest.momentum } else { extent });
         let root = solve(start, &scale, |unknowns: &[D; U]| {
             let d: [D; N] = std::array::from_fn(|i| unknowns[i]);
             let y: [D; N] = std::array::from_fn(|i| x[i] + d[i] * h);
@@ -99,6 +103,7 @@ where
         self.d = std::array::from_fn(|i| root.x[i]);
         self.mu = std::array::from_fn(|c| root.x[N + c]);
         (self.x, self.p) = root.at.known;
+        self.largest.update(&self.p, &self.d);
         self.progress.solved(&root);
         Ok(())
     }
@@ -122,11 +127,11 @@ where
     /// The velocity along the manifold from which a motion would start with this momentum, to which
     /// constraints may add their half step's impulse.
     fn velocity(&self) -> Result<[D; N], StepError> {
-        let Self { system, x, d, p, progress, .. } = self;
+        let Self { system, x, d, p, largest, progress, .. } = self;
         let (_, g) = jacobian(x, |v| system.constraints(v));
         let start = std::array::from_fn(|i| if i < N { d[i] } else { D::from(0.0) });
-        let (momentum, rate) = (scale::largest(p), scale::constraint_rate(x, d));
-        let scale = std::array::from_fn(|i| if i < N { momentum } else { rate });
+        let rate = largest.constraint_rate(x);
+        let scale = std::array::from_fn(|i| if i < N { largest.momentum } else { rate });
         let root = solve(start, &scale, |unknowns: &[D; U]| {
             let v_dot: [D; N] = std::array::from_fn(|i| unknowns[i]);
             let start = system.start(x, &v_dot, progress.h);

@@ -2,9 +2,7 @@
 
 use super::systems::{PENDULUM, pendulum};
 use surefoot_sim::integrators::{Form, Integrator, Method, Rattle, Shake, Variational};
-use surefoot_sim::mechanics::systems::{
-    DoubleSphericalPendulum, PendulumAngles, PolarAngles, SphericalPendulum,
-};
+use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, Pendulum, PolarAngles};
 use surefoot_sim::mechanics::{
     Chart, DiscreteLagrangian, Endpoint, Generalized, Lagrangian, Midpoint, Momenta, Natural,
     Scalar,
@@ -40,10 +38,10 @@ where
 
 #[test]
 fn constrained_and_generalized_coordinates_agree() {
-    let pendulum = SphericalPendulum { mass: 1.5, length: 2.0, gravity: 9.81 };
+    let pendulum = Pendulum { masses: [1.5], lengths: [2.0], gravity: 9.81 };
     let largest = distance::<_, _, 3, 1, 4, 2>(
         Midpoint(pendulum),
-        PolarAngles { length: 2.0 },
+        PolarAngles { lengths: [2.0] },
         [0.9, 0.0],
         [0.903, 0.02],
         0.01,
@@ -53,7 +51,7 @@ fn constrained_and_generalized_coordinates_agree() {
     let double = DoubleSphericalPendulum::PRINTED;
     let largest = distance::<_, _, 6, 2, 8, 4>(
         Midpoint(double),
-        PendulumAngles { lengths: double.lengths },
+        PolarAngles { lengths: double.lengths },
         [0.78, 0.0, 0.86, 0.03],
         [0.785, 0.01, 0.862, 0.045],
         0.01,

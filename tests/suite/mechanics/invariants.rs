@@ -3,7 +3,7 @@
 use super::systems::{PENDULUM, Planet, body, pendulum};
 use num_dual::{Dual, Dual64};
 use surefoot_sim::integrators::{Integrator, Method, Motion, Variational, start_natural};
-use surefoot_sim::mechanics::systems::{FreeRigidBody, PendulumAngles};
+use surefoot_sim::mechanics::systems::{FreeRigidBody, PolarAngles};
 use surefoot_sim::mechanics::{
     Chart, Displacement, Lagrangian, Midpoint, jacobian, symplectic_form,
 };
@@ -77,7 +77,7 @@ fn symplectic_momentum_methods_keep_the_momentum_that_they_show() {
 
 /// States of the pendulum in numbers that carry one of the eight displacements along the manifold each.
 fn displaced() -> Vec<([Dual64; 6], [Dual64; 6])> {
-    let chart = PendulumAngles { lengths: PENDULUM.lengths };
+    let chart = PolarAngles { lengths: PENDULUM.lengths };
     let (angles, rates) = ([0.78, 0.0, 0.86, 0.03], [0.5, 1.0, 0.2, 1.5]);
     (0..8)
         .map(|k| {

@@ -2,7 +2,9 @@
 
 mod convergence;
 mod equivalence;
+mod forces;
 mod invariants;
 mod limits;
+mod stability;
 mod systems;
 mod tables;
