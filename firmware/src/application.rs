@@ -122,8 +122,13 @@ impl Application {
             Ok(ToTarget::Configure(settings)) => FromTarget::Acknowledged(self.configure(settings)),
             Ok(ToTarget::SetPoint(pose)) => FromTarget::Acknowledged(self.set_point(pose)),
             Ok(ToTarget::Arm) => {
-                self.is_arming = true;
-                FromTarget::Acknowledged(self.order(Order::Arm))
+                // Before the order, which must wait for a measurement.
+                let was_arming = core::mem::replace(&mut self.is_arming, true);
+                let answer = self.order(Order::Arm);
+                if answer != Acknowledged::Done {
+                    self.is_arming = was_arming;
+                }
+                FromTarget::Acknowledged(answer)
             }
             Ok(ToTarget::Disarm) => {
                 self.is_arming = false;

@@ -212,3 +212,20 @@ proptest! {
         }
     }
 }
+
+/// What docs/firmware.md says of the line's share of a simulated second.
+#[test]
+fn frames_of_a_tick_are_short() {
+    let sent = frame(&mut Sender::new(), &ToTarget::Sensors(sensors(1.5))).len();
+    let answer = Torques {
+        tick: 30_000,
+        joint_torques: [[1.5; 6]; 2],
+        desired_wrench: [1.5; 6],
+        mode: Mode::Active,
+        reason: None,
+        cost: 20_721,
+        latency: 28,
+    };
+    let received = frame(&mut Sender::new(), &FromTarget::Torques(answer)).len();
+    assert_eq!((sent, received), (157, 90));
+}

@@ -18,6 +18,7 @@ pub mod contact;
 pub mod experiments;
 pub mod integrators;
 pub mod mechanics;
+pub mod mechanism;
 pub mod newton;
 pub mod plant;
 pub mod record;

@@ -195,8 +195,8 @@ impl<T: Real, const LEGS: usize> Supervisor<T, LEGS> {
         supervised
     }
 
-    /// The torques of a tick, into `self.torques`, and its answer into `command`; those of the tick before where a measurement is
-    /// missing.
+    /// The torques of a tick, into `self.torques`, and its answer into `command`. Where a measurement is
+    /// missing, the torques stay those of the tick before.
     #[inline(always)]
     fn active(
         &mut self,

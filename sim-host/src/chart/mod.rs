@@ -1,10 +1,12 @@
 //! Charts as SVG.
 
+mod mechanism_charts;
 mod run_charts;
 mod style;
 mod time_series;
 mod xy;
 
+pub use mechanism_charts::write_mechanism_chart;
 pub use run_charts::write_charts;
 pub use style::ChartError;
 pub use time_series::{Panel, Series, draw};

@@ -39,6 +39,14 @@ const FIRMWARE: &str =
     concat!(env!("CARGO_MANIFEST_DIR"), "/../target/firmware/surefoot-firmware-emulation.elf");
 
 impl ControllerOptions {
+    /// Whether anything differs from what is assumed.
+    pub fn was_chosen(&self) -> bool {
+        self.place != Place::Host
+            || self.scalar != Scalar::F64
+            || self.firmware.is_some()
+            || self.port.is_some()
+    }
+
     /// The precision in effect.
     pub fn scalar(&self) -> Scalar {
         match self.place {

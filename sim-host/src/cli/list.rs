@@ -1,7 +1,8 @@
 //! `surefoot list`
 
 use super::{bad_input, say};
-use crate::scene::built_in;
+use crate::integrators::Method;
+use crate::scene::{AnyScene, built_in};
 use clap::Parser;
 use std::fmt::Write;
 use std::process::ExitCode;
@@ -13,11 +14,6 @@ pub struct Options {
     #[arg(long)]
     json: bool,
 }
-
-const INTEGRATORS: [(&str, &str); 1] = [(
-    "semi-implicit-euler",
-    "joint-space forward dynamics, velocities first: the baseline most simulators use",
-)];
 
 const ROBOTS: [(&str, &str); 3] = [
     ("biped", "the dissertation's biped: 13 bodies, 18 degrees of freedom, 74.548 kg"),
@@ -31,10 +27,13 @@ pub fn list(options: &Options) -> ExitCode {
         Ok(scenes) => scenes,
         Err(error) => return bad_input(&error.to_string(), options.json),
     };
-    let scenes: Vec<(&str, &str)> =
-        scenes.iter().map(|s| (s.name.as_str(), s.description.as_str())).collect();
+    let scenes: Vec<(&str, &str)> = scenes.iter().map(AnyScene::names).collect();
+    let methods: Vec<(String, String)> =
+        Method::all().iter().map(|method| (method.name(), method.description())).collect();
+    let methods: Vec<(&str, &str)> =
+        methods.iter().map(|(name, line)| (name.as_str(), line.as_str())).collect();
     let groups: [(&str, &[(&str, &str)]); 3] =
-        [("scenes", &scenes), ("integrators", &INTEGRATORS), ("robots", &ROBOTS)];
+        [("scenes", &scenes), ("integrators", &methods), ("robots", &ROBOTS)];
     let mut text = String::new();
     if options.json {
         let document: serde_json::Map<String, serde_json::Value> = groups
@@ -53,7 +52,7 @@ pub fn list(options: &Options) -> ExitCode {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "{group}");
             for (name, line) in entries {
-                let _ = writeln!(text, "  {name:<20} {line}");
+                let _ = writeln!(text, "  {name:<24} {line}");
             }
         }
     }

@@ -9,6 +9,7 @@ mod list;
 mod report;
 mod reproduce;
 mod run;
+mod run_mechanism;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;

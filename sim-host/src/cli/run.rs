@@ -2,11 +2,13 @@
 
 use super::controller::ControllerOptions;
 use super::report::{self, Report};
+use super::run_mechanism::run_mechanism;
 use super::{RUN_FAILED, bad_input, say};
 use crate::chart::write_charts;
 use crate::closed_loop::{self, Run};
+use crate::integrators::Method;
 use crate::record::write_csv;
-use crate::scene::{Feet, IntegratorName, Scene, TorquesFrom, load};
+use crate::scene::{AnyScene, Feet, Scene, TorquesFrom, open};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
@@ -20,15 +22,18 @@ pub struct Options {
     scene: String,
     /// Method, instead of the scene's
     #[arg(long, value_enum)]
-    integrator: Option<IntegratorName>,
+    pub(super) integrator: Option<Method>,
     /// Step in seconds, instead of the scene's
     #[arg(long, allow_negative_numbers = true)]
-    step: Option<f64>,
+    pub(super) step: Option<f64>,
     /// Simulated seconds, instead of the scene's
     #[arg(long, allow_negative_numbers = true)]
-    duration: Option<f64>,
+    pub(super) duration: Option<f64>,
     #[command(flatten)]
     controller: ControllerOptions,
+    /// Links of a pendulum, instead of the scene's
+    #[arg(long)]
+    pub(super) links: Option<usize>,
     /// When torques set in, instead of the scene's
     #[arg(long, value_enum)]
     torques_from: Option<TorquesFrom>,
@@ -37,12 +42,28 @@ pub struct Options {
     out: Option<PathBuf>,
     /// One JSON document on stdout instead of the summary
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
+}
+
+impl Options {
+    pub(super) fn folder(&self, scene: &str) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| Path::new("out").join(scene))
+    }
+
+    /// Whether something was said that a scene without a controller has no use for.
+    pub(super) fn is_about_a_controller(&self) -> bool {
+        self.torques_from.is_some() || self.controller.was_chosen()
+    }
 }
 
 /// Runs the scene and reports.
 pub fn run(options: &Options) -> ExitCode {
-    let scene = match scene(options) {
+    let scene = match open(&options.scene) {
+        Ok(AnyScene::Robot(scene)) => *scene,
+        Ok(AnyScene::Mechanism(scene)) => return run_mechanism(scene, options),
+        Err(error) => return bad_input(&error.to_string(), options.json),
+    };
+    let scene = match with_options(scene, options) {
         Ok(scene) => scene,
         Err(message) => return bad_input(&message, options.json),
     };
@@ -58,8 +79,7 @@ pub fn run(options: &Options) -> ExitCode {
         Some(Err(message)) => return bad_input(&message, options.json),
     };
 
-    let folder = options.out.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
-    let files = match write_files(&folder, &scene, &run) {
+    let files = match write_files(&options.folder(&scene.name), &scene, &run) {
         Ok(files) => files,
         Err(message) => return bad_input(&message, options.json),
     };
@@ -84,8 +104,10 @@ pub fn run(options: &Options) -> ExitCode {
     }
 }
 
-fn scene(options: &Options) -> Result<Scene, String> {
-    let mut scene = load(&options.scene).map_err(|error| error.to_string())?;
+fn with_options(mut scene: Scene, options: &Options) -> Result<Scene, String> {
+    if options.links.is_some() {
+        return Err(format!("{} has no links to choose a number of", scene.name));
+    }
     if let Some(name) = options.integrator {
         scene.integrator.name = name;
     }
@@ -118,12 +140,7 @@ fn other_reading(scene: &Scene) -> Option<Scene> {
 /// Runs with a progress bar on stderr, which hides itself where that is no terminal.
 fn simulate(scene: &Scene, options: &Options) -> Result<Run, String> {
     let mut controller = options.controller.controller(scene).map_err(|error| error.to_string())?;
-    let bar = ProgressBar::new((scene.duration_s * 1e3) as u64);
-    // The template is constant and valid; were it not, the default style would do.
-    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} ms {eta}") {
-        bar.set_style(style);
-    }
-    bar.set_message(scene.name.clone());
+    let bar = bar(&scene.name, scene.duration_s);
     let run = closed_loop::run(scene, controller.as_mut(), &mut |time| {
         bar.set_position((time * 1e3) as u64);
     });
@@ -131,12 +148,30 @@ fn simulate(scene: &Scene, options: &Options) -> Result<Run, String> {
     Ok(run)
 }
 
-fn write_files(folder: &Path, scene: &Scene, run: &Run) -> Result<Vec<PathBuf>, String> {
+/// A progress bar over simulated time.
+pub(super) fn bar(scene: &str, duration_s: f64) -> ProgressBar {
+    let bar = ProgressBar::new((duration_s * 1e3) as u64);
+    // The template is constant and valid; were it not, the default style would do.
+    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} ms {eta}") {
+        bar.set_style(style);
+    }
+    bar.set_message(scene.to_owned());
+    bar
+}
+
+/// The record's file in a folder that is made.
+pub(super) fn created(folder: &Path) -> Result<(PathBuf, std::fs::File), String> {
     let context = |error: &dyn std::fmt::Display| format!("{}: {error}", folder.display());
     std::fs::create_dir_all(folder).map_err(|error| context(&error))?;
     let record = folder.join("record.csv");
     let file = std::fs::File::create(&record).map_err(|error| context(&error))?;
-    write_csv(&run.samples, std::io::BufWriter::new(file)).map_err(|error| context(&error))?;
+    Ok((record, file))
+}
+
+fn write_files(folder: &Path, scene: &Scene, run: &Run) -> Result<Vec<PathBuf>, String> {
+    let (record, file) = created(folder)?;
+    write_csv(&run.samples, std::io::BufWriter::new(file))
+        .map_err(|error| format!("{}: {error}", record.display()))?;
     let mut files = vec![record];
     files.extend(
         write_charts(folder, &scene.name, &run.samples).map_err(|error| error.to_string())?,

@@ -90,7 +90,7 @@ fn advance(
         let time = (tick * steps_per_tick) as f64 * step;
         touched |= watch.touched();
         let command = command(scene, plant, controller, touched, time)?;
-        sample(plant, &command, time, run);
+        sample(plant, &command, time, run)?;
         fallen(plant, time)?;
         if tick % 25 == 0 {
             progress(time);
@@ -141,9 +141,14 @@ fn command(
     })
 }
 
-fn sample(plant: &dyn Plant, command: &Commanded, time_s: f64, run: &mut Run) {
+fn sample(
+    plant: &dyn Plant,
+    command: &Commanded,
+    time_s: f64,
+    run: &mut Run,
+) -> Result<(), Failure> {
     let state = plant.state();
-    let seen = plant.observe();
+    let seen = plant.observe().map_err(|failure| step_failure(time_s, failure))?;
     run.constraint_max = run.constraint_max.max(seen.constraint);
     run.samples.push(Sample {
         time_s,
@@ -157,6 +162,7 @@ fn sample(plant: &dyn Plant, command: &Commanded, time_s: f64, run: &mut Run) {
         contacts: seen.contacts,
         energy: [seen.kinetic_energy, seen.potential_energy],
     });
+    Ok(())
 }
 
 fn fallen(plant: &dyn Plant, time: f64) -> Result<(), Failure> {

@@ -5,6 +5,7 @@
 //! Lagrangian L(v, v̇), constraints g(v) ─ Midpoint (2.23) or Endpoint (2.45) ─► 𝕃(y, x)
 //!      𝕃, g ─ exact derivatives ─► discrete Euler–Lagrange equations, Jacobian, momenta
 //! ```
+#![doc = include_str!("../../../docs/your-own-system.md")]
 
 mod acceleration;
 mod differentiation;

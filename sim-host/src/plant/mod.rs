@@ -1,6 +1,7 @@
 //! Plants: robots that move under torques.
 
 mod configuration;
+mod energies;
 mod on_floor;
 mod welded;
 
@@ -86,7 +87,10 @@ pub trait Plant {
     fn contacts(&self) -> Option<[[ContactState; 4]; 2]>;
 
     /// Energies, contact and constraints at the present state.
-    fn observe(&self) -> Observation;
+    ///
+    /// # Errors
+    /// A [`StepFailure`] for a state that no step has made, and that is no configuration.
+    fn observe(&self) -> Result<Observation, StepFailure>;
 
     /// Largest step for which the plant is stable, as far as it can be told beforehand, s; `None`
     /// where nothing limits it but accuracy.

@@ -1,12 +1,11 @@
 //! The baseline plant: joint-space forward dynamics (Alg. 3.3) and semi-implicit Euler, with contact
 //! forces at the corners of the soles. It is what most simulators do, kept to compare with.
 
-use super::{
-    NQ, NV, Observation, Plant, PlantState, StepFailure, check_velocities, generalized, retract,
-};
+use super::energies::energies;
+use super::{Observation, Plant, PlantState, StepFailure, check_velocities, generalized, retract};
 use crate::contact::{ContactPoint, ContactState, Floor, PointForce};
 use nalgebra::Vector3;
-use surefoot::dynamics::{JointPoses, body_poses, body_velocities, forward_dynamics, joint_poses};
+use surefoot::dynamics::{body_poses, body_velocities, forward_dynamics, joint_poses};
 use surefoot::model::robots::biped::{FEET, SoleOutline, TREE};
 use surefoot::spatial::{Pose, Twist, Wrench};
 
@@ -69,27 +68,6 @@ impl OnFloor {
     }
 }
 
-/// Kinetic energy, and potential energy of gravity, of the biped.
-pub(super) fn energies(
-    poses: &[Pose<f64>; 13],
-    joint_poses: &JointPoses<f64, 13, NQ>,
-    velocities: &[f64; NV],
-) -> (f64, f64) {
-    let m = surefoot::dynamics::mass_matrix(&TREE, joint_poses);
-    let kinetic = m
-        .iter()
-        .zip(velocities)
-        .map(|(row, v)| v * row.iter().zip(velocities).map(|(m, w)| m * w).sum::<f64>())
-        .sum::<f64>()
-        * 0.5;
-    let potential = poses
-        .iter()
-        .enumerate()
-        .map(|(k, pose)| -TREE.body_mass(k).unwrap_or(0.0) * TREE.gravity().dot(&pose.position))
-        .sum();
-    (kinetic, potential)
-}
-
 impl Plant for OnFloor {
     fn state(&self) -> &PlantState {
         &self.state
@@ -129,27 +107,19 @@ impl Plant for OnFloor {
         Some(self.points.map(|foot| foot.map(|point| point.state)))
     }
 
-    fn observe(&self) -> Observation {
+    fn observe(&self) -> Result<Observation, StepFailure> {
         let PlantState { positions, velocities } = &self.state;
-        let nothing = Observation {
-            kinetic_energy: f64::NAN,
-            potential_energy: f64::NAN,
-            foot_forces: [f64::NAN; 2],
-            contacts: self.contacts(),
-            constraint: 0.0,
-        };
-        // `step` has accepted this state, and a scene is checked before it starts.
-        let Ok(relative) = joint_poses(&TREE, positions) else { return nothing };
+        let relative = joint_poses(&TREE, positions)?;
         let poses = body_poses(&TREE, &relative);
         let touch = self.touch(&poses, &body_velocities(&TREE, &relative, velocities));
         let (kinetic_energy, potential) = energies(&poses, &relative, velocities);
-        Observation {
+        Ok(Observation {
             kinetic_energy,
             potential_energy: potential + touch.spring_energy,
             foot_forces: touch.vertical,
             contacts: self.contacts(),
             constraint: 0.0,
-        }
+        })
     }
 
     /// Explicit damping `b` on an effective mass `m` is stable for `h < 2m/b`, a spring `k` for

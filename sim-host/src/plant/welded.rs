@@ -8,7 +8,7 @@
 //! (1) makes `J β̇ = −J β / h`; so `(J 𝕄⁻¹ Jᵀ) λ = −J β/h − J 𝕄⁻¹ (τ − ℂ)` (2). Both matrices are
 //! positive definite and are factored by Cholesky.
 
-use super::on_floor::energies;
+use super::energies::energies;
 use super::{
     NV, Observation, Plant, PlantState, StepFailure, check_velocities, generalized, retract,
 };
@@ -101,32 +101,24 @@ impl Plant for Welded {
         None
     }
 
-    fn observe(&self) -> Observation {
+    fn observe(&self) -> Result<Observation, StepFailure> {
         let PlantState { positions, velocities } = &self.state;
-        let mut observation = Observation {
-            kinetic_energy: f64::NAN,
-            potential_energy: f64::NAN,
+        let relative = joint_poses(&TREE, positions)?;
+        let poses = body_poses(&TREE, &relative);
+        let (kinetic_energy, potential_energy) = energies(&poses, &relative, velocities);
+        let apart = FEET.into_iter().zip(&self.welds).map(|(foot, weld)| {
+            let drift = weld.inverse().compose(&poses[foot]);
+            let turned = (drift.rotation - nalgebra::Matrix3::identity()).norm();
+            // |R − 1| = 2√2 sin(θ/2) in the Frobenius norm.
+            drift.position.norm().max(turned / std::f64::consts::SQRT_2)
+        });
+        Ok(Observation {
+            kinetic_energy,
+            potential_energy,
             foot_forces: self.vertical,
             contacts: None,
-            constraint: f64::NAN,
-        };
-        // `step` has accepted this state, and a scene is checked before it starts.
-        if let Ok(relative) = joint_poses(&TREE, positions) {
-            let poses = body_poses(&TREE, &relative);
-            (observation.kinetic_energy, observation.potential_energy) =
-                energies(&poses, &relative, velocities);
-            observation.constraint = FEET
-                .into_iter()
-                .zip(&self.welds)
-                .map(|(foot, weld)| {
-                    let drift = weld.inverse().compose(&poses[foot]);
-                    let turned = (drift.rotation - nalgebra::Matrix3::identity()).norm();
-                    // |R − 1| = 2√2 sin(θ/2) in the Frobenius norm.
-                    drift.position.norm().max(turned / std::f64::consts::SQRT_2)
-                })
-                .fold(0.0, f64::max);
-        }
-        observation
+            constraint: apart.fold(0.0, f64::max),
+        })
     }
 
     fn step_limit(&self) -> Option<f64> {

@@ -2,9 +2,11 @@
 
 mod csv;
 mod event;
+mod mechanism_csv;
 
 pub use self::csv::write_csv;
 pub use event::{Event, EventKind};
+pub use mechanism_csv::write_mechanism_csv;
 
 use crate::contact::ContactState;
 use crate::plant::{NQ, NV};

@@ -1,6 +1,6 @@
 //! The scenes that come with the program.
 
-use super::{Scene, SceneError, parse};
+use super::{AnyScene, SceneError, parse};
 
 /// A built-in scene: its name and its file.
 #[derive(Clone, Copy, Debug)]
@@ -12,7 +12,7 @@ pub struct BuiltIn {
 }
 
 /// All built-in scenes.
-pub const BUILT_IN: [BuiltIn; 3] = [
+pub const BUILT_IN: [BuiltIn; 6] = [
     BuiltIn { name: "experiment-1", text: include_str!("../../scenes/experiment-1.toml") },
     BuiltIn {
         name: "experiment-1-pushes",
@@ -22,13 +22,19 @@ pub const BUILT_IN: [BuiltIn; 3] = [
         name: "experiment-1-welded",
         text: include_str!("../../scenes/experiment-1-welded.toml"),
     },
+    BuiltIn { name: "n-pendulum", text: include_str!("../../scenes/n-pendulum.toml") },
+    BuiltIn { name: "rigid-body", text: include_str!("../../scenes/rigid-body.toml") },
+    BuiltIn {
+        name: "spherical-pendulum",
+        text: include_str!("../../scenes/spherical-pendulum.toml"),
+    },
 ];
 
 /// The built-in scenes, parsed.
 ///
 /// # Errors
 /// Never for the scenes as shipped: a test parses them all.
-pub fn built_in() -> Result<Vec<Scene>, SceneError> {
+pub fn built_in() -> Result<Vec<AnyScene>, SceneError> {
     BUILT_IN.iter().map(|scene| parse(scene.name, scene.text)).collect()
 }
 

@@ -1,6 +1,7 @@
 //! What a scene must fulfil before it runs.
 
 use super::{Feet, Scene, SceneError, Workspace};
+use crate::integrators::Method;
 use nalgebra::Vector3;
 use surefoot::balance::{LeggedRobot, RobotState, central_body, leg_kinematics};
 use surefoot::model::robots::biped;
@@ -87,17 +88,34 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
     Ok(())
 }
 
-fn timing(scene: &Scene) -> Result<(), SceneError> {
-    let (duration, step) = (scene.duration_s, scene.integrator.step_s);
+/// A time, and a step in which it can be simulated.
+pub(super) fn duration_and_step(scene: &str, duration: f64, step: f64) -> Result<(), SceneError> {
+    let wrong = |field: &str, value: f64, expected: String| SceneError::Value {
+        name: scene.to_owned(),
+        field: field.to_owned(),
+        value: format!("{value:?}"),
+        expected,
+    };
     if !(duration.is_finite() && duration > 0.0) {
-        return Err(wrong(scene, "duration_s", duration, "a time above zero, in seconds"));
+        return Err(wrong("duration_s", duration, "a time above zero, in seconds".into()));
     }
     if !(step.is_finite() && step > 0.0) {
-        return Err(wrong(scene, "integrator.step_s", step, "a step above zero, in seconds"));
+        return Err(wrong("integrator.step_s", step, "a step above zero, in seconds".into()));
     }
     if duration / step > MOST_STEPS {
         let expected = format!("at most {MOST_STEPS:e} steps in {duration} s");
-        return Err(wrong(scene, "integrator.step_s", step, expected));
+        return Err(wrong("integrator.step_s", step, expected));
+    }
+    Ok(())
+}
+
+fn timing(scene: &Scene) -> Result<(), SceneError> {
+    let step = scene.integrator.step_s;
+    duration_and_step(&scene.name, scene.duration_s, step)?;
+    let method = scene.integrator.name;
+    if method != Method::SemiImplicitEuler {
+        let expected = format!("{} for a robot", Method::SemiImplicitEuler);
+        return Err(wrong(scene, "integrator.name", method, expected));
     }
     let rate = scene.controller.rate_hz;
     let steps = 1.0 / (rate * step);

@@ -2,7 +2,7 @@
 
 use super::builtin::BUILT_IN;
 use super::check::check;
-use super::{Initial, Scene};
+use super::{Initial, MechanismScene, Scene};
 use crate::plant::PlantState;
 use nalgebra::Vector3;
 use std::path::Path;
@@ -56,11 +56,30 @@ fn advice(nearest: &Option<&'static str>) -> String {
     }
 }
 
+/// A scene of either kind.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AnyScene {
+    /// A robot under its controller.
+    Robot(Box<Scene>),
+    /// A mechanism that nobody controls.
+    Mechanism(MechanismScene),
+}
+
+impl AnyScene {
+    /// The scene's name and its line for people.
+    pub fn names(&self) -> (&str, &str) {
+        match self {
+            Self::Robot(scene) => (&scene.name, &scene.description),
+            Self::Mechanism(scene) => (&scene.name, &scene.description),
+        }
+    }
+}
+
 /// A built-in scene by its name, or a scene file by its path.
 ///
 /// # Errors
 /// A [`SceneError`].
-pub fn load(name: &str) -> Result<Scene, SceneError> {
+pub fn open(name: &str) -> Result<AnyScene, SceneError> {
     if let Some(scene) = BUILT_IN.iter().find(|scene| scene.name == name) {
         return parse(name, scene.text);
     }
@@ -82,18 +101,40 @@ pub fn load(name: &str) -> Result<Scene, SceneError> {
     parse(stem, &text)
 }
 
-/// A scene from its text, checked.
+/// The same, of a robot.
+///
+/// # Errors
+/// A [`SceneError`], also for a scene of the other kind.
+pub fn load(name: &str) -> Result<Scene, SceneError> {
+    match open(name)? {
+        AnyScene::Robot(scene) => Ok(*scene),
+        AnyScene::Mechanism(scene) => Err(SceneError::Syntax {
+            name: scene.name,
+            message: "a mechanism without a controller; expected a robot".to_owned(),
+        }),
+    }
+}
+
+/// A scene from its text, checked. One with a table `mechanism` is a mechanism's.
 ///
 /// # Errors
 /// [`SceneError::Syntax`] with the line, or [`SceneError::Value`].
-pub fn parse(name: &str, text: &str) -> Result<Scene, SceneError> {
-    let mut scene: Scene = toml::from_str(text).map_err(|error| SceneError::Syntax {
+pub fn parse(name: &str, text: &str) -> Result<AnyScene, SceneError> {
+    let syntax = |error: toml::de::Error| SceneError::Syntax {
         name: name.to_owned(),
         message: error.to_string().trim_end().to_owned(),
-    })?;
+    };
+    let table: toml::Table = toml::from_str(text).map_err(syntax)?;
+    if table.contains_key("mechanism") {
+        let mut scene: MechanismScene = toml::from_str(text).map_err(syntax)?;
+        name.clone_into(&mut scene.name);
+        scene.check()?;
+        return Ok(AnyScene::Mechanism(scene));
+    }
+    let mut scene: Scene = toml::from_str(text).map_err(syntax)?;
     name.clone_into(&mut scene.name);
     check(&scene)?;
-    Ok(scene)
+    Ok(AnyScene::Robot(Box::new(scene)))
 }
 
 impl Scene {

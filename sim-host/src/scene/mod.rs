@@ -5,11 +5,14 @@
 mod builtin;
 mod check;
 mod load;
+mod mechanism;
 
 pub use builtin::{BuiltIn, built_in};
-pub use load::{SceneError, load, parse};
+pub use load::{AnyScene, SceneError, load, open, parse};
+pub use mechanism::{Link, MOST_LINKS, Mechanism, MechanismScene};
 
 use crate::contact::Floor;
+use crate::integrators::Method;
 use serde::{Deserialize, Serialize};
 use surefoot::model::robots::biped::SoleOutline;
 
@@ -67,17 +70,9 @@ impl Scene {
 #[serde(deny_unknown_fields)]
 pub struct Integrator {
     /// Which method.
-    pub name: IntegratorName,
+    pub name: Method,
     /// Step, s.
     pub step_s: f64,
-}
-
-/// Methods known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
-#[serde(rename_all = "kebab-case")]
-pub enum IntegratorName {
-    /// Velocities first, then positions along the new velocities; joint-space forward dynamics.
-    SemiImplicitEuler,
 }
 
 /// The robot's start, at rest.

@@ -15,7 +15,7 @@ fn a_free_robot_falls() {
     state.positions[2] = 10.0;
     state.velocities = std::array::from_fn(|i| 0.3 * (i as f64).sin());
     let energy = |plant: &OnFloor| {
-        let seen = plant.observe();
+        let seen = plant.observe().expect("a configuration");
         seen.kinetic_energy + seen.potential_energy
     };
     let drift = |h: f64| {

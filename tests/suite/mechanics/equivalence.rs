@@ -2,7 +2,9 @@
 
 use super::systems::{PENDULUM, pendulum};
 use surefoot_sim::integrators::{Form, Integrator, Method, Rattle, Shake, Variational};
-use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, Pendulum, PolarAngles};
+use surefoot_sim::mechanics::systems::{
+    DoubleSphericalPendulum, FreeRigidBody, Pendulum, PolarAngles,
+};
 use surefoot_sim::mechanics::{
     Chart, DiscreteLagrangian, Endpoint, Generalized, Lagrangian, Midpoint, Momenta, Natural,
     Scalar,
@@ -136,6 +138,33 @@ impl<const N: usize, const C: usize, S: Natural<N, C>> Lagrangian<N, C> for Plai
 
     fn constraints<D: Scalar>(&self, v: &[D; N]) -> [D; C] {
         Lagrangian::constraints(&self.0, v)
+    }
+}
+
+/// (2.51) with none of its derivatives written out.
+struct PlainBody(FreeRigidBody);
+
+impl DiscreteLagrangian<4, 1> for PlainBody {
+    fn discrete_lagrangian<D: Scalar>(&self, x: &[D; 4], d: &[D; 4], h: f64) -> D {
+        self.0.discrete_lagrangian(x, d, h)
+    }
+
+    fn constraints<D: Scalar>(&self, v: &[D; 4]) -> [D; 1] {
+        DiscreteLagrangian::constraints(&self.0, v)
+    }
+}
+
+/// What the free body writes out is what differentiation gives, off the unit sphere, too.
+#[test]
+fn the_free_bodys_derivatives_are_the_automatic_ones() {
+    let body = FreeRigidBody::PRINTED;
+    let (x, d) = ([0.9, -0.2, 0.5, 0.3], [0.4, 1.1, -0.7, 2.0]);
+    for h in [0.0, 1e-3, 0.3] {
+        let (written, plain) = (body.momenta(&x, &d, h), PlainBody(body).momenta(&x, &d, h));
+        let all = |m: Momenta<4>| [m.begin.to_vec(), m.end.to_vec(), m.stiffness.concat()].concat();
+        for (a, b) in all(written).into_iter().zip(all(plain)) {
+            assert!((a - b).abs() < 1e-13, "{h}: {written:?} {plain:?}");
+        }
     }
 }
 

@@ -1,0 +1,51 @@
+//! The chart of a mechanism's run.
+
+use super::{ChartError, XyChart, XySeries};
+use crate::mechanism::MechanismSample;
+use crate::scene::Mechanism;
+use std::path::{Path, PathBuf};
+
+/// Writes the chart of a run into a folder and returns its path: coordinates, and what should be
+/// conserved.
+///
+/// # Errors
+/// [`ChartError`] if it cannot be written.
+pub fn write_mechanism_chart(
+    folder: &Path,
+    scene: &str,
+    mechanism: &Mechanism,
+    samples: &[MechanismSample],
+) -> Result<PathBuf, ChartError> {
+    let (names, axis): (Vec<String>, &str) = match mechanism {
+        Mechanism::RigidBody { .. } => {
+            (["q scalar", "q x", "q y", "q z"].map(str::to_owned).to_vec(), "unit quaternion")
+        }
+        Mechanism::Pendulum { links, .. } => {
+            let last = 3 * (links.len() - 1);
+            let name = |i: usize| match i.checked_sub(last) {
+                Some(k) => ["x", "y", "z"][k].to_owned(),
+                None => String::new(),
+            };
+            ((0..last + 3).map(name).collect(), "last mass (m)")
+        }
+    };
+    let curve = |name: &str, value: &dyn Fn(&MechanismSample) -> f64| {
+        XySeries::curve(name, samples.iter().map(|sample| (sample.time_s, value(sample))))
+    };
+    let coordinates = names
+        .iter()
+        .enumerate()
+        .filter(|(_, name)| !name.is_empty())
+        .map(|(i, name)| curve(name, &|sample| sample.configuration[i]))
+        .collect();
+    let first = samples.first().map_or(0.0, |sample| sample.energy);
+    let path = folder.join("motion.svg");
+    XyChart::new(format!("{scene}: motion"), "time (s)", axis)
+        .with(coordinates)
+        .below(
+            XyChart::new("Energy, less that of the start", "time (s)", "J")
+                .with(vec![curve("energy", &|sample| sample.energy - first)]),
+        )
+        .draw(&path)?;
+    Ok(path)
+}

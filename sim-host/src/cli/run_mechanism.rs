@@ -1,0 +1,182 @@
+//! `surefoot run` of a mechanism that nobody controls.
+
+use super::run::{Options, bar, created};
+use super::{RUN_FAILED, bad_input, say};
+use crate::chart::write_mechanism_chart;
+use crate::mechanism::{MechanismRun, run};
+use crate::record::write_mechanism_csv;
+use crate::scene::MechanismScene;
+use crate::stability::FailureKind;
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Runs the scene and reports.
+pub(super) fn run_mechanism(scene: MechanismScene, options: &Options) -> ExitCode {
+    let scene = match with_options(scene, options) {
+        Ok(scene) => scene,
+        Err(message) => return bad_input(&message, options.json),
+    };
+    let bar = bar(&scene.name, scene.duration_s);
+    let run = run(&scene, &mut |time| bar.set_position((time * 1e3) as u64));
+    bar.finish_and_clear();
+    let run = match run {
+        Ok(run) => run,
+        Err(error) => return bad_input(&format!("{}: {error}", scene.name), options.json),
+    };
+    let files = match write_files(&options.folder(&scene.name), &scene, &run) {
+        Ok(files) => files,
+        Err(message) => return bad_input(&message, options.json),
+    };
+    if options.json {
+        say(&format!("{:#}\n", document(&scene, &run, &files)));
+    } else {
+        say(&text(&scene, &run, &files));
+    }
+    match &run.failure {
+        None => ExitCode::SUCCESS,
+        Some(failure) => {
+            eprintln!("failed at {:.4} s: {failure}", failure.time_s);
+            ExitCode::from(RUN_FAILED)
+        }
+    }
+}
+
+fn with_options(scene: MechanismScene, options: &Options) -> Result<MechanismScene, String> {
+    if options.is_about_a_controller() {
+        return Err(format!("{} has no controller, and no options of one", scene.name));
+    }
+    let mut scene = match options.links {
+        None => scene,
+        Some(links) => scene.with_links(links).map_err(|error| error.to_string())?,
+    };
+    if let Some(method) = options.integrator {
+        scene.integrator.name = method;
+    }
+    if let Some(step) = options.step {
+        scene.integrator.step_s = step;
+    }
+    if let Some(duration) = options.duration {
+        scene.duration_s = duration;
+    }
+    scene.check().map_err(|error| error.to_string())?;
+    Ok(scene)
+}
+
+fn write_files(
+    folder: &Path,
+    scene: &MechanismScene,
+    run: &MechanismRun,
+) -> Result<Vec<PathBuf>, String> {
+    let (record, file) = created(folder)?;
+    write_mechanism_csv(&scene.mechanism, &run.samples, std::io::BufWriter::new(file))
+        .map_err(|error| format!("{}: {error}", record.display()))?;
+    let chart = write_mechanism_chart(folder, &scene.name, &scene.mechanism, &run.samples)
+        .map_err(|error| error.to_string())?;
+    Ok(vec![record, chart])
+}
+
+/// What to try after a failure.
+fn advice(run: &MechanismRun) -> String {
+    match run.forecast_s {
+        Some(step) => format!("a shorter step: {step:.2e} s is foretold to work"),
+        None => "a shorter step, or another method".to_owned(),
+    }
+}
+
+fn text(scene: &MechanismScene, run: &MechanismRun, files: &[PathBuf]) -> String {
+    let mut out = String::new();
+    // Writing to a string cannot fail.
+    let _ = lines(&mut out, scene, run);
+    for file in files {
+        let _ = writeln!(out, "  {}", file.display());
+    }
+    out
+}
+
+fn lines(out: &mut String, scene: &MechanismScene, run: &MechanismRun) -> std::fmt::Result {
+    let word = if run.failure.is_some() { "FAILED" } else { "COMPLETED" };
+    writeln!(out, "{}: {word}", scene.name)?;
+    writeln!(out, "  {}", scene.description)?;
+    if let Some(failure) = &run.failure {
+        writeln!(out, "  {failure}")?;
+        writeln!(out, "  advice: {}", advice(run))?;
+    }
+    let steps = run.progress.steps;
+    let wall_s = run.wall.as_secs_f64();
+    writeln!(
+        out,
+        "  {}: {steps} steps of {} s in {wall_s:.2} s ({:.1} µs a step)",
+        scene.integrator.name,
+        scene.integrator.step_s,
+        wall_s * 1e6 / steps.max(1) as f64,
+    )?;
+    writeln!(
+        out,
+        "  Newton iterations: {:.2} on average, {} at most; unknowns: {}",
+        run.progress.mean_iterations(),
+        run.progress.most_iterations,
+        run.unknowns,
+    )?;
+    if let Some(step) = run.forecast_s {
+        writeln!(out, "  longest step foretold: {step:.2e} s")?;
+    }
+    if let Some(first) = run.samples.first() {
+        let [low, high] = run.energy_range;
+        write!(out, "  energy: {:.6} J, band {:.1e} J", first.energy, high - low)?;
+        if let Some(slope) = run.energy_slope() {
+            write!(out, ", slope {slope:.1e} J/s")?;
+        }
+        writeln!(out)?;
+    }
+    if let Some(drift) = run.momentum_drift() {
+        writeln!(out, "  angular momentum: changes by {drift:.1e} of itself")?;
+    }
+    writeln!(out, "  constraints: {:.1e} at most", run.constraint_max)
+}
+
+/// The document of `--json`. Keys that have no meaning for a mechanism are null.
+fn document(scene: &MechanismScene, run: &MechanismRun, files: &[PathBuf]) -> Value {
+    let failure = run.failure.as_ref().map(|failure| {
+        json!({
+            "kind": FailureKind::from(*failure),
+            "time_s": failure.time_s,
+            "where": failure.to_string(),
+            "advice": advice(run),
+        })
+    });
+    let [low, high] = run.energy_range;
+    json!({
+        "scene": scene.name,
+        "integrator": scene.integrator.name,
+        "step_s": scene.integrator.step_s,
+        "duration_s": scene.duration_s,
+        "scalar": "f64",
+        "steps": run.progress.steps,
+        "outcome": if run.failure.is_some() { "failed" } else { "completed" },
+        "failure": failure,
+        "wall_s": run.wall.as_secs_f64(),
+        "wall_us_per_step": run.wall.as_secs_f64() * 1e6 / run.progress.steps.max(1) as f64,
+        "newton": {
+            "mean": run.progress.mean_iterations(),
+            "max": run.progress.most_iterations,
+        },
+        "unknowns_per_step": run.unknowns,
+        "forecast_step_s": run.forecast_s,
+        "energy": {
+            "initial_j": run.samples.first().map(|sample| sample.energy),
+            "band_j": (high >= low).then_some(high - low),
+            "slope_j_per_s": run.energy_slope(),
+        },
+        "momentum": { "linear_drift": Value::Null, "angular_drift": run.momentum_drift() },
+        "constraint_max": run.constraint_max,
+        "peak_torque_nm": Value::Null,
+        "desired_force_z_n": Value::Null,
+        "final": run.samples.last().map(|sample| {
+            json!({ "configuration": sample.configuration, "velocity": sample.velocity })
+        }),
+        "events": [],
+        "files": files,
+    })
+}

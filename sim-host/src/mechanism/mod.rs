@@ -1,0 +1,7 @@
+//! Runs of mechanisms that nobody controls (chapter 2), under any method.
+
+mod moving;
+mod run;
+
+pub use moving::{Moving, start};
+pub use run::{MechanismRun, MechanismSample, run};

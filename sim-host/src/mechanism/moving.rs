@@ -1,0 +1,134 @@
+//! A mechanism on its way, whatever its size.
+
+use crate::integrators::{Motion, Progress, StartError, StepError, start_free_body, start_natural};
+use crate::mechanics::systems::{FreeRigidBody, Pendulum, PolarAngles};
+use crate::mechanics::{Chart, Lagrangian, jacobian};
+use crate::scene::{Link, Mechanism, MechanismScene};
+use crate::stability::{Rates, forecast};
+use num_dual::Dual64;
+
+/// A mechanism on its way.
+pub trait Moving {
+    /// One step.
+    ///
+    /// # Errors
+    /// A [`StepError`]; the motion is then where it was.
+    fn step(&mut self) -> Result<(), StepError>;
+
+    /// Configuration and velocity.
+    ///
+    /// # Errors
+    /// Where the method's momentum belongs to no velocity.
+    fn state(&self) -> Result<(Vec<f64>, Vec<f64>), StepError>;
+
+    /// Energy, J; angular momentum as far as it is conserved, N·m·s; largest constraint.
+    ///
+    /// # Errors
+    /// As for [`Self::state`].
+    fn conserved(&self) -> Result<(f64, Vec<f64>, f64), StepError>;
+
+    /// Time and statistics.
+    fn progress(&self) -> &Progress;
+
+    /// The longest step foretold for its method, s.
+    fn forecast_s(&self) -> Option<f64>;
+
+    /// Coordinates and constraints.
+    fn unknowns(&self) -> usize;
+}
+
+/// A motion of `S`, with its angular momentum.
+struct Moved<S, const N: usize, const C: usize> {
+    system: S,
+    motion: Motion<N>,
+    momentum: fn(&S, &[f64; N], &[f64; N]) -> Vec<f64>,
+    forecast_s: Option<f64>,
+}
+
+impl<S: Lagrangian<N, C>, const N: usize, const C: usize> Moving for Moved<S, N, C> {
+    fn step(&mut self) -> Result<(), StepError> {
+        self.motion.step()
+    }
+
+    fn state(&self) -> Result<(Vec<f64>, Vec<f64>), StepError> {
+        Ok((self.motion.configuration().to_vec(), self.motion.velocity()?.to_vec()))
+    }
+
+    fn conserved(&self) -> Result<(f64, Vec<f64>, f64), StepError> {
+        let (x, v) = (self.motion.configuration(), self.motion.velocity()?);
+        let constraints: [Dual64; C] = self.system.constraints(&x.map(Dual64::from_re));
+        let largest = constraints.iter().fold(0.0, |m: f64, g| m.max(g.re.abs()));
+        Ok((self.system.energy(x, &v), (self.momentum)(&self.system, x, &v), largest))
+    }
+
+    fn progress(&self) -> &Progress {
+        self.motion.progress()
+    }
+
+    fn forecast_s(&self) -> Option<f64> {
+        self.forecast_s
+    }
+
+    fn unknowns(&self) -> usize {
+        N + C
+    }
+}
+
+/// Starts a scene.
+///
+/// # Errors
+/// A [`StartError`].
+pub fn start(scene: &MechanismScene) -> Result<Box<dyn Moving>, StartError> {
+    match &scene.mechanism {
+        Mechanism::RigidBody { inertia_kg_m2, orientation, angular_velocity_rad_s } => {
+            let body = FreeRigidBody { inertia: *inertia_kg_m2 };
+            // A file rounds it.
+            let norm = orientation.iter().map(|q| q * q).sum::<f64>().sqrt();
+            let q = orientation.map(|q| q / norm);
+            let q_dot = FreeRigidBody::rate(&q, angular_velocity_rad_s);
+            let (method, h) = (scene.integrator.name, scene.integrator.step_s);
+            let rates = Rates::along_motion::<_, 4, 1, 5>(&body, q, q_dot, scene.duration_s);
+            Ok(Box::new(Moved::<_, 4, 1> {
+                system: body,
+                motion: start_free_body(method, body, h, q, q_dot)?,
+                // For a step of no length the discrete momentum is the continuous one.
+                momentum: |body, q, v| body.discrete_momentum(q, v, 0.0).to_vec(),
+                forecast_s: forecast(method, &rates),
+            }))
+        }
+        Mechanism::Pendulum { gravity_m_s2, links } => match links.len() {
+            1 => pendulum::<1, 2, 3, 4>(scene, *gravity_m_s2, links),
+            2 => pendulum::<2, 4, 6, 8>(scene, *gravity_m_s2, links),
+            3 => pendulum::<3, 6, 9, 12>(scene, *gravity_m_s2, links),
+            // The scene's check allows no more.
+            _ => pendulum::<4, 8, 12, 16>(scene, *gravity_m_s2, links),
+        },
+    }
+}
+
+/// `L` links, with `M` angles, `N` coordinates, and `U` unknowns.
+fn pendulum<const L: usize, const M: usize, const N: usize, const U: usize>(
+    scene: &MechanismScene,
+    gravity: f64,
+    links: &[Link],
+) -> Result<Box<dyn Moving>, StartError> {
+    let system = Pendulum::<L> {
+        masses: std::array::from_fn(|k| links[k].mass_kg),
+        lengths: std::array::from_fn(|k| links[k].length_m),
+        gravity,
+    };
+    let angle = |k: usize| links[k / 2].angles_deg[k % 2].to_radians();
+    let rate = |k: usize| links[k / 2].rates_deg_s[k % 2].to_radians();
+    let angles: [f64; M] = std::array::from_fn(angle);
+    let chart = PolarAngles { lengths: system.lengths };
+    let (x, slope) = jacobian(&angles, |q| chart.embed(q));
+    let v: [f64; N] = slope.map(|row| row.iter().enumerate().map(|(k, s)| s * rate(k)).sum());
+    let (method, h) = (scene.integrator.name, scene.integrator.step_s);
+    let rates = Rates::along_motion::<_, N, L, U>(&system, x, v, scene.duration_s);
+    Ok(Box::new(Moved::<_, N, L> {
+        system,
+        motion: start_natural::<_, f64, N, L, U>(method, system, h, x, v)?,
+        momentum: |system, x, v| vec![system.vertical_momentum(x, v)],
+        forecast_s: forecast(method, &rates),
+    }))
+}

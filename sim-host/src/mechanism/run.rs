@@ -1,0 +1,131 @@
+//! One run.
+
+use super::moving::{Moving, start};
+use crate::integrators::{Progress, StartError, StepError};
+use crate::scene::MechanismScene;
+use std::time::{Duration, Instant};
+
+/// One sample.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MechanismSample {
+    /// s
+    pub time_s: f64,
+    /// `x`
+    pub configuration: Vec<f64>,
+    /// `ẋ`
+    pub velocity: Vec<f64>,
+    /// J
+    pub energy: f64,
+    /// As far as it is conserved, N·m·s.
+    pub momentum: Vec<f64>,
+    /// Largest constraint.
+    pub constraint: f64,
+}
+
+/// What a run leaves.
+#[derive(Clone, Debug)]
+pub struct MechanismRun {
+    /// At most some thousand, evenly spaced, the first and last included.
+    pub samples: Vec<MechanismSample>,
+    /// Least and greatest energy at all steps, J.
+    pub energy_range: [f64; 2],
+    /// Largest constraint at all steps.
+    pub constraint_max: f64,
+    /// Time, steps, iterations.
+    pub progress: Progress,
+    /// Coordinates and constraints.
+    pub unknowns: usize,
+    /// The longest step foretold, s.
+    pub forecast_s: Option<f64>,
+    /// Why it ended early.
+    pub failure: Option<StepError>,
+    /// Computing time.
+    pub wall: Duration,
+}
+
+/// Samples at most.
+const SAMPLES: u64 = 4000;
+
+/// Runs a scene; `at` hears of the time that is reached.
+///
+/// # Errors
+/// A [`StartError`].
+pub fn run(scene: &MechanismScene, at: &mut dyn FnMut(f64)) -> Result<MechanismRun, StartError> {
+    let mut moving = start(scene)?;
+    let steps = (scene.duration_s / scene.integrator.step_s).round().max(1.0) as u64;
+    let every = steps.div_ceil(SAMPLES);
+    let mut run = MechanismRun {
+        samples: Vec::new(),
+        energy_range: [f64::INFINITY, f64::NEG_INFINITY],
+        constraint_max: 0.0,
+        progress: *moving.progress(),
+        unknowns: moving.unknowns(),
+        forecast_s: moving.forecast_s(),
+        failure: None,
+        wall: Duration::ZERO,
+    };
+    let begun = Instant::now();
+    for step in 0..=steps {
+        let is_sample = step % every == 0 || step == steps;
+        if let Err(error) = look(moving.as_ref(), &mut run, is_sample) {
+            run.failure = Some(error);
+            break;
+        }
+        if is_sample {
+            at(run.progress.time_s);
+        }
+        if step == steps {
+            break;
+        }
+        if let Err(error) = moving.step() {
+            run.failure = Some(error);
+            break;
+        }
+    }
+    run.progress = *moving.progress();
+    run.wall = begun.elapsed();
+    Ok(run)
+}
+
+fn look(moving: &dyn Moving, run: &mut MechanismRun, is_sample: bool) -> Result<(), StepError> {
+    run.progress = *moving.progress();
+    let (energy, momentum, constraint) = moving.conserved()?;
+    run.energy_range = [run.energy_range[0].min(energy), run.energy_range[1].max(energy)];
+    run.constraint_max = run.constraint_max.max(constraint);
+    if is_sample {
+        let (configuration, velocity) = moving.state()?;
+        let time_s = run.progress.time_s;
+        run.samples.push(MechanismSample {
+            time_s,
+            configuration,
+            velocity,
+            energy,
+            momentum,
+            constraint,
+        });
+    }
+    Ok(())
+}
+
+impl MechanismRun {
+    /// Slope of the energy's straight line, J/s; none for fewer than two samples.
+    pub fn energy_slope(&self) -> Option<f64> {
+        let n = self.samples.len() as f64;
+        let first = self.samples.first()?.energy;
+        let mean_t = self.samples.iter().map(|s| s.time_s).sum::<f64>() / n;
+        let mean_e = self.samples.iter().map(|s| s.energy - first).sum::<f64>() / n;
+        let along = |s: &MechanismSample| (s.time_s - mean_t) * (s.energy - first - mean_e);
+        let variance: f64 = self.samples.iter().map(|s| (s.time_s - mean_t).powi(2)).sum();
+        (variance > 0.0).then(|| self.samples.iter().map(along).sum::<f64>() / variance)
+    }
+
+    /// Largest change of the conserved angular momentum, relative to its size; none where that is zero.
+    pub fn momentum_drift(&self) -> Option<f64> {
+        let first = &self.samples.first()?.momentum;
+        let size = first.iter().map(|m| m * m).sum::<f64>().sqrt();
+        let change = |s: &MechanismSample| {
+            s.momentum.iter().zip(first).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+        };
+        (size > 1e-12).then(|| self.samples.iter().map(change).fold(0.0, f64::max) / size)
+    }
+}

@@ -1,0 +1,136 @@
+//! Scenes of chapter 2: a mechanism that nobody controls.
+
+use super::{Integrator, SceneError};
+use serde::{Deserialize, Serialize};
+
+/// A mechanism, its start, its method and its time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MechanismScene {
+    /// Name: the built-in's, or the file's.
+    #[serde(skip)]
+    pub name: String,
+    /// One line for people.
+    pub description: String,
+    /// Simulated time, s.
+    pub duration_s: f64,
+    /// Method and step.
+    pub integrator: Integrator,
+    /// What moves.
+    pub mechanism: Mechanism,
+}
+
+/// What moves, and from where.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Mechanism {
+    /// A free rigid body in unit quaternions.
+    RigidBody {
+        /// Principal inertias, kg·m².
+        inertia_kg_m2: [f64; 3],
+        /// World from body, scalar first.
+        orientation: [f64; 4],
+        /// In the body's frame, rad/s.
+        angular_velocity_rad_s: [f64; 3],
+    },
+    /// Point masses on massless rods, each below the one before.
+    Pendulum {
+        /// m/s²
+        gravity_m_s2: f64,
+        /// From the pivot on.
+        links: Vec<Link>,
+    },
+}
+
+/// A rod with a mass at its end.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Link {
+    /// kg
+    pub mass_kg: f64,
+    /// m
+    pub length_m: f64,
+    /// From straight down, and about the vertical.
+    pub angles_deg: [f64; 2],
+    /// Their rates.
+    pub rates_deg_s: [f64; 2],
+}
+
+/// Links that a pendulum may have: its equations have a size known at compile time.
+pub const MOST_LINKS: usize = 4;
+
+impl MechanismScene {
+    /// The same with another number of links, each new one like the last.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] for a mechanism without links, or more than there may be.
+    pub fn with_links(mut self, number: usize) -> Result<Self, SceneError> {
+        match &mut self.mechanism {
+            Mechanism::Pendulum { links, .. } => {
+                if let Some(last) = links.last().copied() {
+                    links.resize(number, last);
+                }
+            }
+            Mechanism::RigidBody { .. } => {
+                return Err(self.wrong("--links", number, "a scene with links".into()));
+            }
+        }
+        self.check()?;
+        Ok(self)
+    }
+
+    fn wrong(&self, field: &str, value: impl std::fmt::Debug, expected: String) -> SceneError {
+        let (name, field) = (self.name.clone(), field.to_owned());
+        SceneError::Value { name, field, value: format!("{value:?}"), expected }
+    }
+
+    /// Checks what a file may get wrong.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`].
+    pub fn check(&self) -> Result<(), SceneError> {
+        super::check::duration_and_step(&self.name, self.duration_s, self.integrator.step_s)?;
+        match &self.mechanism {
+            Mechanism::RigidBody { inertia_kg_m2, orientation, angular_velocity_rad_s } => {
+                let [a, b, c] = *inertia_kg_m2;
+                let possible = a > 0.0 && b > 0.0 && c > 0.0;
+                if !(possible && a + b >= c && b + c >= a && c + a >= b && (a + b + c).is_finite())
+                {
+                    let expected = "three inertias above zero, none above the others' sum";
+                    let field = "mechanism.inertia_kg_m2";
+                    return Err(self.wrong(field, inertia_kg_m2, expected.into()));
+                }
+                let norm = orientation.iter().map(|q| q * q).sum::<f64>().sqrt();
+                if !((norm - 1.0).abs() < 1e-3) {
+                    let expected = format!("a unit quaternion, scalar first (its norm is {norm})");
+                    return Err(self.wrong("mechanism.orientation", orientation, expected));
+                }
+                if !angular_velocity_rad_s.iter().all(|w| w.is_finite()) {
+                    let field = "mechanism.angular_velocity_rad_s";
+                    return Err(self.wrong(field, angular_velocity_rad_s, "finite numbers".into()));
+                }
+            }
+            Mechanism::Pendulum { gravity_m_s2, links } => {
+                if !gravity_m_s2.is_finite() {
+                    let field = "mechanism.gravity_m_s2";
+                    return Err(self.wrong(field, gravity_m_s2, "a finite number".into()));
+                }
+                if links.is_empty() || links.len() > MOST_LINKS {
+                    let expected = format!("1 to {MOST_LINKS} links");
+                    return Err(self.wrong("mechanism.links", links.len(), expected));
+                }
+                for (number, link) in links.iter().enumerate() {
+                    let angles = link.angles_deg.iter().chain(&link.rates_deg_s);
+                    let sizes = [link.mass_kg, link.length_m];
+                    let sound = sizes.iter().all(|size| size.is_finite() && *size > 0.0);
+                    if !(sound && angles.into_iter().all(|x| x.is_finite())) {
+                        let expected = "a mass and a length above zero, finite angles and rates";
+                        let field = format!("mechanism.links[{number}]");
+                        return Err(self.wrong(&field, link, expected.into()));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
