@@ -19,6 +19,7 @@ pub mod experiments;
 pub mod integrators;
 pub mod mechanics;
 pub mod mechanism;
+pub mod multibody;
 pub mod newton;
 pub mod plant;
 pub mod record;

@@ -5,4 +5,5 @@ mod closed_loop;
 mod documents;
 mod dynamics;
 mod mechanics;
+mod multibody;
 mod spatial;

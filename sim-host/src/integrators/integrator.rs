@@ -60,7 +60,7 @@ impl Progress {
     }
 
     /// A step has been made, without iterations.
-    pub(super) fn advance(&mut self) {
+    pub(crate) fn advance(&mut self) {
         self.steps += 1;
         // Not by addition, whose round-off would add up.
         self.time_s = self.steps as f64 * self.h;
@@ -68,8 +68,13 @@ impl Progress {
 
     /// A step's equations have been solved, or a part of them.
     pub(super) fn solved<T, const U: usize, D>(&mut self, root: &Root<T, U, D>) {
-        self.iterations += u64::from(root.iterations);
-        self.most_iterations = self.most_iterations.max(root.iterations);
-        self.residual = self.residual.max(root.residual);
+        self.iterated(root.iterations, root.residual);
+    }
+
+    /// The same by a solver of one's own.
+    pub(crate) fn iterated(&mut self, iterations: u32, residual: f64) {
+        self.iterations += u64::from(iterations);
+        self.most_iterations = self.most_iterations.max(iterations);
+        self.residual = self.residual.max(residual);
     }
 }

@@ -1,0 +1,5 @@
+//! §5.4.
+
+mod motion;
+mod reference;
+mod solver;
