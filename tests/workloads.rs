@@ -2,6 +2,7 @@
 
 use crate::chains::chain;
 use nalgebra::Vector3;
+use std::cell::RefCell;
 use std::hint::black_box;
 use surefoot::Real;
 use surefoot::balance::{Controller, LeggedRobot, Reference, RobotState, WorkspaceForm, tick};
@@ -11,6 +12,7 @@ use surefoot::dynamics::{
 use surefoot::model::Tree;
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
+use surefoot_sim::multibody::{Chain, ChainJoint, Simulation};
 
 /// One call of an algorithm, joint poses included.
 pub struct Workload {
@@ -132,6 +134,26 @@ fn on_chain<const N: usize>() -> Vec<Workload> {
     all
 }
 
+/// Steps of a hanging chain of revolute joints from rest, by the multibody simulator.
+fn on_rods(links: usize) -> Workload {
+    let chain = Chain {
+        links,
+        mass: 1.0,
+        length: 0.1,
+        radius: 0.02,
+        joint: ChainJoint::Alternating,
+        floats: false,
+        gravity: 9.81,
+    };
+    let (system, still) = (chain.system().expect("a system"), vec![[0.0; 7]; links]);
+    let start = Simulation::new(system, 1e-3, chain.bent(0.05), still).expect("a start");
+    let simulation = RefCell::new(start);
+    Workload {
+        name: format!("multibody-step/chain-{links}/f64"),
+        call: Box::new(move || simulation.borrow_mut().step().expect("a step")),
+    }
+}
+
 /// Everything that is measured.
 pub fn workloads() -> Vec<Workload> {
     let mut all = on_biped("f64", &TREE, &ROBOT);
@@ -142,5 +164,6 @@ pub fn workloads() -> Vec<Workload> {
     all.extend(on_chain::<50>());
     all.extend(on_chain::<100>());
     all.extend(on_chain::<200>());
+    all.extend([25, 100, 400, 1000].map(on_rods));
     all
 }

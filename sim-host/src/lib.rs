@@ -6,7 +6,8 @@
 //!                 └──► Controller (host f32 or f64)
 //! ```
 //! Beside it stands chapter 2: [`mechanics`] (Lagrangians, discrete and not), [`newton`] (the one
-//! nonlinear solver) and [`integrators`].
+//! nonlinear solver), [`integrators`], and [`stability`] (how long their steps may be); of chapter 5
+//! [`multibody`]. Scenes of either run by [`mechanism`].
 //!
 //! All of it in f64, but for a controller in f32. A plant allocates when it is built, never in a
 //! step.

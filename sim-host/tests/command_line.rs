@@ -282,6 +282,7 @@ fn mechanisms_run_and_say_what_they_keep() {
         (vec!["rigid-body", "--integrator", "lie-group"], 5, true),
         (vec!["spherical-pendulum", "--integrator", "yoshida-4"], 4, true),
         (vec!["n-pendulum", "--links", "4", "--duration", "2"], 16, false),
+        (vec!["chain", "--links", "20", "--duration", "1"], 260, false),
     ] {
         let all = [&["run"], &arguments[..], &["--json"]].concat();
         let (status, stdout, stderr) = said(&surefoot(&folder, &all));
@@ -314,7 +315,9 @@ fn a_mechanism_that_fails_says_why() {
     let document: Value = serde_json::from_str(&stdout).expect("one document");
     assert_eq!(document["failure"]["kind"], "no-root");
     assert!(document["failure"]["advice"].as_str().is_some_and(|a| a.contains("foretold")));
-    let cases: [(&[&str], &[&str]); 6] = [
+    let cases: [(&[&str], &[&str]); 8] = [
+        (&["chain", "--integrator", "rattle"], &["integrator.name", "variational"]),
+        (&["chain", "--links", "0"], &["links", "0", "1 to"]),
         (&["rigid-body", "--integrator", "rattle"], &["rattle", "natural systems"]),
         (&["n-pendulum", "--integrator", "verlet"], &["verlet", "without constraints"]),
         (&["n-pendulum", "--links", "9"], &["links", "9", "1 to 4"]),

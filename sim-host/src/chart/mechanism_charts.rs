@@ -20,14 +20,8 @@ pub fn write_mechanism_chart(
         Mechanism::RigidBody { .. } => {
             (["q scalar", "q x", "q y", "q z"].map(str::to_owned).to_vec(), "unit quaternion")
         }
-        Mechanism::Pendulum { links, .. } => {
-            let last = 3 * (links.len() - 1);
-            let name = |i: usize| match i.checked_sub(last) {
-                Some(k) => ["x", "y", "z"][k].to_owned(),
-                None => String::new(),
-            };
-            ((0..last + 3).map(name).collect(), "last mass (m)")
-        }
+        Mechanism::Pendulum { links, .. } => (last_three(3, links.len()), "last mass (m)"),
+        Mechanism::Chain { links, .. } => (last_three(7, *links), "last rod's centre of mass (m)"),
     };
     let curve = |name: &str, value: &dyn Fn(&MechanismSample) -> f64| {
         XySeries::curve(name, samples.iter().map(|sample| (sample.time_s, value(sample))))
@@ -48,4 +42,14 @@ pub fn write_mechanism_chart(
         )
         .draw(&path)?;
     Ok(path)
+}
+
+/// Names of the last body's position among all coordinates; those of others are empty.
+fn last_three(each: usize, bodies: usize) -> Vec<String> {
+    let last = each * (bodies - 1);
+    let name = |i: usize| match i.checked_sub(last) {
+        Some(k) if k < 3 => ["x", "y", "z"][k].to_owned(),
+        _ => String::new(),
+    };
+    (0..each * bodies).map(name).collect()
 }

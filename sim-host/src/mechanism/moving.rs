@@ -3,6 +3,7 @@
 use crate::integrators::{Motion, Progress, StartError, StepError, start_free_body, start_natural};
 use crate::mechanics::systems::{FreeRigidBody, Pendulum, PolarAngles};
 use crate::mechanics::{Chart, Lagrangian, jacobian};
+use crate::multibody::{Chain, Simulation, SystemError};
 use crate::scene::{Link, Mechanism, MechanismScene};
 use crate::stability::{Rates, forecast};
 use num_dual::Dual64;
@@ -74,11 +75,56 @@ impl<S: Lagrangian<N, C>, const N: usize, const C: usize> Moving for Moved<S, N,
     }
 }
 
+impl Moving for Simulation {
+    fn step(&mut self) -> Result<(), StepError> {
+        Self::step(self)
+    }
+
+    fn state(&self) -> Result<(Vec<f64>, Vec<f64>), StepError> {
+        Ok((self.states().concat(), self.rates()?.concat()))
+    }
+
+    /// Of angular momentum, nothing is conserved that is not the pivot's affair, unless the chain floats
+    /// without gravity.
+    fn conserved(&self) -> Result<(f64, Vec<f64>, f64), StepError> {
+        let (states, rates) = (self.states(), self.rates()?);
+        let system = self.system();
+        let is_free = system.gravity() == 0.0
+            && system.links().iter().all(|l| l.inboard.is_some() || l.joint.constraints() == 0);
+        let momentum =
+            if is_free { system.momentum(states, &rates).1.to_vec() } else { Vec::new() };
+        Ok((system.energy(states, &rates), momentum, system.largest_constraint(states)))
+    }
+
+    fn progress(&self) -> &Progress {
+        Self::progress(self)
+    }
+
+    fn forecast_s(&self) -> Option<f64> {
+        None
+    }
+
+    fn unknowns(&self) -> usize {
+        Self::unknowns(self)
+    }
+}
+
+/// Why a scene cannot be started.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum StartFailure {
+    /// The method refuses it.
+    #[error(transparent)]
+    Method(#[from] StartError),
+    /// It is no system.
+    #[error(transparent)]
+    System(#[from] SystemError),
+}
+
 /// Starts a scene.
 ///
 /// # Errors
-/// A [`StartError`].
-pub fn start(scene: &MechanismScene) -> Result<Box<dyn Moving>, StartError> {
+/// A [`StartFailure`].
+pub fn start(scene: &MechanismScene) -> Result<Box<dyn Moving>, StartFailure> {
     match &scene.mechanism {
         Mechanism::RigidBody { inertia_kg_m2, orientation, angular_velocity_rad_s } => {
             let body = FreeRigidBody { inertia: *inertia_kg_m2 };
@@ -96,6 +142,29 @@ pub fn start(scene: &MechanismScene) -> Result<Box<dyn Moving>, StartError> {
                 forecast_s: forecast(method, &rates),
             }))
         }
+        Mechanism::Chain {
+            links,
+            mass_kg,
+            length_m,
+            radius_m,
+            joint,
+            floats,
+            bend_deg,
+            gravity_m_s2,
+        } => {
+            let chain = Chain {
+                links: *links,
+                mass: *mass_kg,
+                length: *length_m,
+                radius: *radius_m,
+                joint: *joint,
+                floats: *floats,
+                gravity: *gravity_m_s2,
+            };
+            let (states, still) = (chain.bent(bend_deg.to_radians()), vec![[0.0; 7]; *links]);
+            let h = scene.integrator.step_s;
+            Ok(Box::new(Simulation::new(chain.system()?, h, states, still)?))
+        }
         Mechanism::Pendulum { gravity_m_s2, links } => match links.len() {
             1 => pendulum::<1, 2, 3, 4>(scene, *gravity_m_s2, links),
             2 => pendulum::<2, 4, 6, 8>(scene, *gravity_m_s2, links),
@@ -111,7 +180,7 @@ fn pendulum<const L: usize, const M: usize, const N: usize, const U: usize>(
     scene: &MechanismScene,
     gravity: f64,
     links: &[Link],
-) -> Result<Box<dyn Moving>, StartError> {
+) -> Result<Box<dyn Moving>, StartFailure> {
     let system = Pendulum::<L> {
         masses: std::array::from_fn(|k| links[k].mass_kg),
         lengths: std::array::from_fn(|k| links[k].length_m),

@@ -1,7 +1,7 @@
 //! One run.
 
-use super::moving::{Moving, start};
-use crate::integrators::{Progress, StartError, StepError};
+use super::moving::{Moving, StartFailure, start};
+use crate::integrators::{Progress, StepError};
 use crate::scene::MechanismScene;
 use std::time::{Duration, Instant};
 
@@ -49,8 +49,8 @@ const SAMPLES: u64 = 4000;
 /// Runs a scene; `at` hears of the time that is reached.
 ///
 /// # Errors
-/// A [`StartError`].
-pub fn run(scene: &MechanismScene, at: &mut dyn FnMut(f64)) -> Result<MechanismRun, StartError> {
+/// A [`StartFailure`].
+pub fn run(scene: &MechanismScene, at: &mut dyn FnMut(f64)) -> Result<MechanismRun, StartFailure> {
     let mut moving = start(scene)?;
     let steps = (scene.duration_s / scene.integrator.step_s).round().max(1.0) as u64;
     let every = steps.div_ceil(SAMPLES);

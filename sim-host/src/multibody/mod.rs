@@ -14,7 +14,7 @@ mod tree_solver;
 
 pub use body::{Body, BodyState};
 pub use chain::{Chain, ChainJoint};
-pub use joint::{Joint, JointConstraint, MOST_CONSTRAINTS};
+pub use joint::{Joint, JointConstraint, MOST_CONSTRAINTS, Rows};
 pub use simulation::Simulation;
 pub use system::{Link, System, SystemError};
 pub use tree_solver::{Correction, Equations, SingularJoint, TreeEquations};

@@ -158,6 +158,7 @@ impl Simulation {
     pub fn step(&mut self) -> Result<(), StepError> {
         self.trial.d.copy_from_slice(&self.d);
         self.trial.multipliers.copy_from_slice(&self.multipliers);
+        self.begin();
         let mut error = self.evaluate();
         let mut iterations = 0;
         'newton: loop {
@@ -217,6 +218,19 @@ impl Simulation {
         self.progress.error(StepFailure::Newton(NewtonFailure::SingularJacobian { pivot: joint }))
     }
 
+    /// Rows at the step's beginning, into `equations`.
+    fn begin(&mut self) {
+        for (k, link) in self.system.links().iter().enumerate() {
+            let x = &self.states[k];
+            let inboard = link.inboard.map_or(&WORLD, |inboard| &self.states[inboard]);
+            let rows = link.joint.rows(x, inboard);
+            let node = &mut self.equations.nodes[k];
+            node.norm[0] = norm_row(x);
+            node.outboard_rows[0] = rows.outboard;
+            node.inboard_rows[0] = rows.inboard;
+        }
+    }
+
     /// Residual (5.11) and Jacobian (5.13) at the trial, into `equations`; largest residual relative to
     /// its terms.
     fn evaluate(&mut self) -> f64 {
@@ -235,22 +249,22 @@ impl Simulation {
         for (k, link) in self.system.links().iter().enumerate() {
             let (x, d) = (&self.states[k], &self.trial.d[k]);
             let y = end_of(x, d);
-            let (x_i, y_i) = match link.inboard {
-                None => (WORLD, WORLD),
-                Some(i) => (self.states[i], end_of(&self.states[i], &self.trial.d[i])),
+            let y_i = match link.inboard {
+                None => WORLD,
+                Some(i) => end_of(&self.states[i], &self.trial.d[i]),
             };
             let step = link.body.momenta(x, d, h, gravity);
             self.trial.ends[k] = step.end;
-            let (begin, end) = (link.joint.rows(x, &x_i), link.joint.rows(&y, &y_i));
+            let end = link.joint.rows(&y, &y_i);
             let node = &mut self.equations.nodes[k];
             let tried = &self.trial.multipliers[k];
             node.stiffness = step.stiffness;
-            node.norm = [norm_row(x), norm_row(&y)];
-            node.outboard_rows = [begin.outboard, end.outboard];
-            node.inboard_rows = [begin.inboard, end.inboard];
+            node.norm[1] = norm_row(&y);
+            node.outboard_rows[1] = end.outboard;
+            node.inboard_rows[1] = end.inboard;
             for i in 0..7 {
                 let held: f64 = (0..node.constraints)
-                    .map(|c| begin.outboard[c][i] * tried.multipliers[c])
+                    .map(|c| node.outboard_rows[0][c][i] * tried.multipliers[c])
                     .sum();
                 let norm = node.norm[0][i] * tried.norm_multiplier;
                 node.force[i] = step.begin[i] - self.momenta[k][i] - held - norm;

@@ -83,14 +83,12 @@ pub struct SingularJoint {
     pub joint: usize,
 }
 
-/// What a node keeps between the two recursions.
-#[derive(Clone, Debug)]
-struct Kept {
-    /// `s`
-    still: [f64; SIZE],
-    /// `S`, by columns.
-    follow: [[f64; SIZE]; MOST],
-}
+/// What a node keeps between the two recursions, by rows: `s`, then the columns of `S`. They are solved
+/// for together, as rows of one length that a compiler can handle at once.
+type Kept = [[f64; RIGHT]; SIZE];
+
+/// Right sides of a node: one, and one for each constraint; and one to make it even.
+const RIGHT: usize = 2 + MOST;
 
 /// Equations of a whole tree, inboard nodes first, and room to solve them.
 #[derive(Clone, Debug)]
@@ -103,7 +101,7 @@ pub struct TreeEquations {
 impl TreeEquations {
     /// Room for these nodes, inboard ones first.
     pub fn new(nodes: Vec<Equations>) -> Self {
-        let kept = vec![Kept { still: [0.0; SIZE], follow: [[0.0; SIZE]; MOST] }; nodes.len()];
+        let kept = vec![[[0.0; RIGHT]; SIZE]; nodes.len()];
         Self { nodes, kept }
     }
 
@@ -120,16 +118,15 @@ impl TreeEquations {
         }
         for k in 0..self.nodes.len() {
             let node = &self.nodes[k];
-            let mut all = self.kept[k].still;
+            let mut moved = [0.0; MOST];
             if let Some(inboard) = node.inboard {
-                let moved = corrections[inboard].coordinates;
+                let coordinates = corrections[inboard].coordinates;
                 for c in 0..node.constraints {
-                    let by = dot(&node.inboard_rows[1][c], &moved);
-                    for (x, s) in all.iter_mut().zip(&self.kept[k].follow[c]) {
-                        *x -= s * by;
-                    }
+                    moved[c] = dot(&node.inboard_rows[1][c], &coordinates);
                 }
             }
+            let all = self.kept[k]
+                .map(|row| row[1..].iter().zip(&moved).fold(row[0], |x, (s, by)| x - s * by));
             let correction = &mut corrections[k];
             correction.coordinates.copy_from_slice(&all[..COORDINATES]);
             correction.norm_multiplier = all[COORDINATES];
@@ -143,14 +140,11 @@ impl TreeEquations {
         let node = &self.nodes[k];
         let (constraints, inboard) = (node.constraints, node.inboard);
         let unknowns = COORDINATES + 1 + constraints;
-        let (mut matrix, right) = assembled(node);
-        let order = factored(&mut matrix, unknowns).ok_or(SingularJoint { joint: k })?;
+        let (matrix, right) = assembled(node);
         let kept = &mut self.kept[k];
-        kept.still = solved(&matrix, &order, &right, unknowns);
-        for c in 0..constraints {
-            let mut unit = [0.0; SIZE];
-            unit[COORDINATES + 1 + c] = 1.0;
-            kept.follow[c] = solved(&matrix, &order, &unit, unknowns);
+        *kept = right;
+        if !solve(matrix, kept, unknowns) {
+            return Err(SingularJoint { joint: k });
         }
         let Some(inboard) = inboard else { return Ok(()) };
         let [begin, end] = self.nodes[k].inboard_rows;
@@ -160,12 +154,12 @@ impl TreeEquations {
             // Row a of F G_iᵐ⁺¹.
             let mut carried = [0.0; COORDINATES];
             for b in 0..constraints {
-                let f = kept.follow[b][COORDINATES + 1 + a];
+                let f = kept[COORDINATES + 1 + a][1 + b];
                 for (x, g) in carried.iter_mut().zip(&end[b]) {
                     *x += f * g;
                 }
             }
-            let multiplier = kept.still[COORDINATES + 1 + a];
+            let multiplier = kept[COORDINATES + 1 + a][0];
             for i in 0..COORDINATES {
                 for j in 0..COORDINATES {
                     into.stiffness[i][j] += begin[a][i] * carried[j];
@@ -177,10 +171,11 @@ impl TreeEquations {
     }
 }
 
-/// The matrix and the right side of (5.15), with the inboard body standing still.
-fn assembled(node: &Equations) -> ([[f64; SIZE]; SIZE], [f64; SIZE]) {
+/// The matrix and the right sides of (5.15): with the inboard body standing still, and for unit errors of
+/// the joint's constraints.
+fn assembled(node: &Equations) -> ([[f64; SIZE]; SIZE], Kept) {
     let mut matrix = [[0.0; SIZE]; SIZE];
-    let mut right = [0.0; SIZE];
+    let mut right = [[0.0; RIGHT]; SIZE];
     for i in 0..COORDINATES {
         matrix[i][..COORDINATES].copy_from_slice(&node.stiffness[i]);
         matrix[i][COORDINATES] = -node.norm[0][i];
@@ -189,11 +184,12 @@ fn assembled(node: &Equations) -> ([[f64; SIZE]; SIZE], [f64; SIZE]) {
             matrix[i][COORDINATES + 1 + c] = -node.outboard_rows[0][c][i];
             matrix[COORDINATES + 1 + c][i] = node.outboard_rows[1][c][i];
         }
-        right[i] = -node.force[i];
+        right[i][0] = -node.force[i];
     }
-    right[COORDINATES] = -node.norm_error;
+    right[COORDINATES][0] = -node.norm_error;
     for c in 0..node.constraints {
-        right[COORDINATES + 1 + c] = -node.error[c];
+        right[COORDINATES + 1 + c][0] = -node.error[c];
+        right[COORDINATES + 1 + c][1 + c] = 1.0;
     }
     (matrix, right)
 }
@@ -201,9 +197,9 @@ fn assembled(node: &Equations) -> ([[f64; SIZE]; SIZE], [f64; SIZE]) {
 /// Pivots that are no more than round-off of their column.
 const ROUND_OFF: f64 = 1e-14;
 
-/// `P A = L U` of the leading `n` rows and columns, in place; none if singular.
-fn factored(a: &mut [[f64; SIZE]; SIZE], n: usize) -> Option<[usize; SIZE]> {
-    let mut order = std::array::from_fn(|i| i);
+/// Solves with the leading `n` rows and columns, by elimination with row exchanges; `right` becomes the
+/// solutions. False if singular.
+fn solve(mut a: [[f64; SIZE]; SIZE], right: &mut Kept, n: usize) -> bool {
     let sizes: [f64; SIZE] =
         std::array::from_fn(|j| a[..n].iter().fold(0.0, |m, row| row[j].abs().max(m)));
     for k in 0..n {
@@ -214,42 +210,40 @@ fn factored(a: &mut [[f64; SIZE]; SIZE], n: usize) -> Option<[usize; SIZE]> {
             }
         }
         a.swap(k, best);
-        order.swap(k, best);
-        let row = a[k];
+        right.swap(k, best);
+        let (row, right_row) = (a[k], right[k]);
         if !(row[k].abs() > ROUND_OFF * sizes[k] && row[k].is_finite()) {
-            return None;
+            return false;
         }
         let inverse = 1.0 / row[k];
         for i in k + 1..n {
             // Half of these matrices is zero.
             if a[i][k] != 0.0 {
                 let factor = a[i][k] * inverse;
-                a[i][k] = factor;
-                for j in k + 1..n {
-                    a[i][j] -= factor * row[j];
+                // Left of the pivot both rows are done with; the whole row goes faster than a part.
+                for (x, y) in a[i].iter_mut().zip(&row) {
+                    *x -= factor * y;
+                }
+                for (x, y) in right[i].iter_mut().zip(&right_row) {
+                    *x -= factor * y;
                 }
             }
         }
     }
-    Some(order)
-}
-
-fn solved(
-    lu: &[[f64; SIZE]; SIZE],
-    order: &[usize; SIZE],
-    right: &[f64; SIZE],
-    n: usize,
-) -> [f64; SIZE] {
-    let mut x = [0.0; SIZE];
-    for i in 0..n {
-        let known: f64 = (0..i).map(|j| lu[i][j] * x[j]).sum();
-        x[i] = right[order[i]] - known;
+    for k in (0..n).rev() {
+        let inverse = 1.0 / a[k][k];
+        let solution = right[k].map(|x| x * inverse);
+        right[k] = solution;
+        for i in 0..k {
+            let factor = a[i][k];
+            if factor != 0.0 {
+                for (x, y) in right[i].iter_mut().zip(&solution) {
+                    *x -= factor * y;
+                }
+            }
+        }
     }
-    for i in (0..n).rev() {
-        let known: f64 = (i + 1..n).map(|j| lu[i][j] * x[j]).sum();
-        x[i] = (x[i] - known) / lu[i][i];
-    }
-    x
+    true
 }
 
 fn dot(a: &[f64; COORDINATES], b: &[f64; COORDINATES]) -> f64 {

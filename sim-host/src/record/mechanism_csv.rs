@@ -38,6 +38,16 @@ fn header(mechanism: &Mechanism) -> Vec<String> {
             let point = |k: usize| ["x", "y", "z"].map(|axis| format!("{axis}{}_m", k + 1));
             ((0..links.len()).flat_map(point).collect(), &["momentum_z_nms"])
         }
+        Mechanism::Chain { links, floats, gravity_m_s2, .. } => {
+            let names = ["x", "y", "z", "q_s", "q_x", "q_y", "q_z"];
+            let body = |k: usize| names.map(|name| format!("{name}{}", k + 1));
+            let momenta: &[&str] = if *floats && *gravity_m_s2 == 0.0 {
+                &["momentum_x_nms", "momentum_y_nms", "momentum_z_nms"]
+            } else {
+                &[]
+            };
+            ((0..*links).flat_map(body).collect(), momenta)
+        }
     };
     let rates: Vec<String> = coordinates.iter().map(|name| format!("{name}_per_s")).collect();
     let mut names = vec!["time_s".to_owned()];

@@ -12,7 +12,7 @@ pub struct BuiltIn {
 }
 
 /// All built-in scenes.
-pub const BUILT_IN: [BuiltIn; 6] = [
+pub const BUILT_IN: [BuiltIn; 7] = [
     BuiltIn { name: "experiment-1", text: include_str!("../../scenes/experiment-1.toml") },
     BuiltIn {
         name: "experiment-1-pushes",
@@ -22,6 +22,7 @@ pub const BUILT_IN: [BuiltIn; 6] = [
         name: "experiment-1-welded",
         text: include_str!("../../scenes/experiment-1-welded.toml"),
     },
+    BuiltIn { name: "chain", text: include_str!("../../scenes/chain.toml") },
     BuiltIn { name: "n-pendulum", text: include_str!("../../scenes/n-pendulum.toml") },
     BuiltIn { name: "rigid-body", text: include_str!("../../scenes/rigid-body.toml") },
     BuiltIn {

@@ -1,6 +1,8 @@
 //! Scenes of chapter 2: a mechanism that nobody controls.
 
 use super::{Integrator, SceneError};
+use crate::integrators::Method;
+use crate::multibody::ChainJoint;
 use serde::{Deserialize, Serialize};
 
 /// A mechanism, its start, its method and its time.
@@ -40,6 +42,25 @@ pub enum Mechanism {
         /// From the pivot on.
         links: Vec<Link>,
     },
+    /// Equal rods on joints, by the multibody simulator.
+    Chain {
+        /// How many.
+        links: usize,
+        /// kg
+        mass_kg: f64,
+        /// m
+        length_m: f64,
+        /// m
+        radius_m: f64,
+        /// What joins them.
+        joint: ChainJoint,
+        /// Whether the first rod floats.
+        floats: bool,
+        /// Of each rod from the one before.
+        bend_deg: f64,
+        /// m/s²
+        gravity_m_s2: f64,
+    },
 }
 
 /// A rod with a mass at its end.
@@ -58,6 +79,8 @@ pub struct Link {
 
 /// Links that a pendulum may have: its equations have a size known at compile time.
 pub const MOST_LINKS: usize = 4;
+/// Links that a chain may have: what its state files can be read with.
+pub const MOST_CHAIN_LINKS: usize = 10_000;
 
 impl MechanismScene {
     /// The same with another number of links, each new one like the last.
@@ -71,6 +94,7 @@ impl MechanismScene {
                     links.resize(number, last);
                 }
             }
+            Mechanism::Chain { links, .. } => *links = number,
             Mechanism::RigidBody { .. } => {
                 return Err(self.wrong("--links", number, "a scene with links".into()));
             }
@@ -108,6 +132,32 @@ impl MechanismScene {
                 if !angular_velocity_rad_s.iter().all(|w| w.is_finite()) {
                     let field = "mechanism.angular_velocity_rad_s";
                     return Err(self.wrong(field, angular_velocity_rad_s, "finite numbers".into()));
+                }
+            }
+            Mechanism::Chain {
+                links, mass_kg, length_m, radius_m, bend_deg, gravity_m_s2, ..
+            } => {
+                if !(1..=MOST_CHAIN_LINKS).contains(links) {
+                    let expected = format!("1 to {MOST_CHAIN_LINKS} links");
+                    return Err(self.wrong("mechanism.links", links, expected));
+                }
+                let sizes = [mass_kg, length_m, radius_m];
+                if !sizes.iter().all(|size| size.is_finite() && **size > 0.0) {
+                    let expected = "a mass, a length and a radius above zero";
+                    return Err(self.wrong("mechanism", sizes, expected.into()));
+                }
+                if !(bend_deg.is_finite() && gravity_m_s2.is_finite()) {
+                    let field = "mechanism.bend_deg, gravity_m_s2";
+                    return Err(self.wrong(
+                        field,
+                        (bend_deg, gravity_m_s2),
+                        "finite numbers".into(),
+                    ));
+                }
+                let method = self.integrator.name;
+                if method != Method::Variational {
+                    let expected = format!("{} for a chain", Method::Variational);
+                    return Err(self.wrong("integrator.name", method, expected));
                 }
             }
             Mechanism::Pendulum { gravity_m_s2, links } => {

@@ -1,9 +1,13 @@
 //! Algorithm 5.1 against a dense solution of the same equations.
 
 use nalgebra::{DMatrix, DVector};
+use num_dual::Dual64;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use surefoot_sim::multibody::{Correction, Equations, SingularJoint, TreeEquations};
+use surefoot_sim::mechanics::jacobian;
+use surefoot_sim::multibody::{
+    Correction, Equations, Joint, JointConstraint, SingularJoint, TreeEquations,
+};
 
 const COUNTS: [usize; 6] = [0, 3, 4, 5, 5, 6];
 
@@ -139,4 +143,39 @@ fn a_singular_joint_is_named() {
     let mut lost = random_tree(&mut random, 3);
     lost[2].stiffness[0][0] = f64::NAN;
     assert!(TreeEquations::new(lost).solve(&mut all[..3]).is_err());
+}
+
+/// Joints' rows are the derivatives of their constraints, for quaternions of any length.
+#[test]
+fn rows_of_joints_are_the_automatic_ones() {
+    let mut random = Pcg64Mcg::seed_from_u64(8);
+    let mut uniform = |low: f64, high: f64| random.random_range(low..high);
+    for _ in 0..50 {
+        let mut vector = || std::array::from_fn(|_| uniform(-1.0, 1.0));
+        let (axis, u, w) = (vector(), vector(), vector());
+        let orientation = [0.5, -0.5, 0.1, 0.7];
+        for constraint in [
+            JointConstraint::Floating,
+            JointConstraint::Spherical,
+            JointConstraint::Universal { outboard_axis: axis, inboard_axis: u },
+            JointConstraint::Revolute { axis, across: [u, w] },
+            JointConstraint::Prismatic { across: [u, w], orientation },
+            JointConstraint::Fixed { orientation },
+        ] {
+            let joint = Joint { outboard: vector(), inboard: vector(), constraint };
+            let [o, i]: [[f64; 7]; 2] = [(); 2]
+                .map(|()| [vector(), vector(), vector()].concat()[..7].try_into().expect("7"));
+            let rows = joint.rows(&o, &i);
+            let still = [o, i].map(|x| x.map(Dual64::from_re));
+            let (error, by_o) = jacobian(&o, |x| joint.evaluate(x, &still[1]));
+            let (_, by_i) = jacobian(&i, |x| joint.evaluate(&still[0], x));
+            assert_eq!(rows.error, error);
+            let pairs = [(rows.outboard, by_o), (rows.inboard, by_i)];
+            for (ours, exact) in pairs {
+                for (a, b) in ours.as_flattened().iter().zip(exact.as_flattened()) {
+                    assert!((a - b).abs() < 1e-13, "{constraint:?}: {ours:?}, {exact:?}");
+                }
+            }
+        }
+    }
 }
