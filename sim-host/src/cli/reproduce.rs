@@ -5,6 +5,7 @@ use super::{RUN_FAILED, bad_input, say};
 use crate::experiments::{Comparison, Figure, double_pendulum, free_body};
 use crate::integrators::StepError;
 use clap::Parser;
+use clap::builder::PossibleValuesParser;
 use indicatif::ProgressBar;
 use serde_json::json;
 use std::fmt::Write;
@@ -16,7 +17,7 @@ use std::time::Duration;
 #[derive(Debug, Parser)]
 pub struct Options {
     /// What to reproduce: a table, a figure, or all
-    #[arg(value_parser = NAMES, default_value = "all", hide_default_value = true)]
+    #[arg(value_parser = names(), default_value = "all", hide_default_value = true)]
     figure: String,
     /// Where drawings go
     #[arg(long, default_value = "out/reproduce")]
@@ -37,22 +38,10 @@ const DOUBLE_PENDULUM: [&str; 7] = [
     "figure-2.11",
     "figure-2.12",
 ];
-const NAMES: [&str; 14] = [
-    "table-2.1",
-    "figure-2.2",
-    "figure-2.3",
-    "figure-2.4",
-    "figure-2.5",
-    "figure-2.6",
-    "table-2.2",
-    "figure-2.7",
-    "figure-2.8",
-    "figure-2.9",
-    "figure-2.10",
-    "figure-2.11",
-    "figure-2.12",
-    "all",
-];
+/// Everything that can be asked for.
+fn names() -> PossibleValuesParser {
+    PossibleValuesParser::new(FREE_BODY.into_iter().chain(DOUBLE_PENDULUM).chain(["all"]))
+}
 
 /// Reproduces and compares.
 pub fn reproduce(options: &Options) -> ExitCode {

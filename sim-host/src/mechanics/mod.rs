@@ -8,6 +8,7 @@
 #![doc = include_str!("../../../docs/your-own-system.md")]
 
 mod acceleration;
+mod action;
 mod differentiation;
 mod discrete_lagrangian;
 mod generalized;
@@ -18,6 +19,7 @@ mod symplectic_form;
 pub mod systems;
 
 pub use acceleration::{acceleration, saddle};
+pub use action::action_sum;
 pub use differentiation::{Momenta, augmented, bend, hessian, jacobian};
 pub use discrete_lagrangian::{DiscreteLagrangian, Endpoint, Midpoint};
 pub use generalized::{Chart, Generalized};

@@ -11,6 +11,7 @@ mod joint;
 mod simulation;
 mod system;
 mod tree_solver;
+mod trial;
 
 pub use body::{Body, BodyState};
 pub use chain::{Chain, ChainJoint};

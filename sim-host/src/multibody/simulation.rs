@@ -14,6 +14,7 @@
 use super::body::BodyState;
 use super::system::{System, SystemError, WORLD};
 use super::tree_solver::{Correction, Equations, TreeEquations};
+use super::trial::Trial;
 use crate::integrators::{Progress, StepError, StepFailure};
 use crate::newton::NewtonFailure;
 
@@ -32,17 +33,6 @@ pub struct Simulation {
     trial: Trial,
     largest_momentum: f64,
     progress: Progress,
-}
-
-/// Room for a step's iterates.
-#[derive(Clone, Debug)]
-struct Trial {
-    d: Vec<BodyState>,
-    multipliers: Vec<Correction>,
-    corrections: Vec<Correction>,
-    base_d: Vec<BodyState>,
-    base_multipliers: Vec<Correction>,
-    ends: Vec<BodyState>,
 }
 
 /// Newton steps at most.
@@ -81,21 +71,13 @@ impl Simulation {
         // At rest gravity's first impulse is the size to go by.
         let first = each().map(|((link, x), v)| link.body.momenta(x, v, h, gravity).begin);
         let largest_momentum = first.flatten().fold(f64::MIN_POSITIVE, |m, p| m.max(p.abs()));
-        let none = vec![Correction::default(); states.len()];
-        let trial = Trial {
-            d: rates.clone(),
-            multipliers: none.clone(),
-            corrections: none.clone(),
-            base_d: rates.clone(),
-            base_multipliers: none.clone(),
-            ends: momenta.clone(),
-        };
+        let trial = Trial::new(&rates, &momenta);
         Ok(Self {
             system,
             states,
             d: rates,
             momenta,
-            multipliers: none,
+            multipliers: trial.multipliers.clone(),
             equations: TreeEquations::new(nodes),
             trial,
             largest_momentum,
@@ -156,8 +138,7 @@ impl Simulation {
     /// # Cost
     /// Linear in the number of links for each Newton iteration; no allocation.
     pub fn step(&mut self) -> Result<(), StepError> {
-        self.trial.d.copy_from_slice(&self.d);
-        self.trial.multipliers.copy_from_slice(&self.multipliers);
+        self.trial.begin(&self.d, &self.multipliers);
         self.begin();
         let mut error = self.evaluate();
         let mut iterations = 0;
@@ -175,8 +156,7 @@ impl Simulation {
             if let Err(singular) = self.equations.solve(&mut self.trial.corrections) {
                 return Err(self.singular(singular.joint));
             }
-            self.trial.base_d.copy_from_slice(&self.trial.d);
-            self.trial.base_multipliers.copy_from_slice(&self.trial.multipliers);
+            self.trial.keep();
             let mut share = 1.0;
             for halvings in 0..=MOST_HALVINGS {
                 self.trial.take(share);
@@ -297,23 +277,6 @@ impl Simulation {
             }
         }
         largest
-    }
-}
-
-impl Trial {
-    /// A share of the corrections from the base.
-    fn take(&mut self, share: f64) {
-        for k in 0..self.d.len() {
-            let correction = &self.corrections[k];
-            for i in 0..7 {
-                self.d[k][i] = self.base_d[k][i] + share * correction.coordinates[i];
-            }
-            let (base, tried) = (&self.base_multipliers[k], &mut self.multipliers[k]);
-            tried.norm_multiplier = base.norm_multiplier + share * correction.norm_multiplier;
-            for (c, to) in tried.multipliers.iter_mut().enumerate() {
-                *to = base.multipliers[c] + share * correction.multipliers[c];
-            }
-        }
     }
 }
 

@@ -1,7 +1,9 @@
 //! The problems whose limits are sought.
 
 use super::problem::Problem;
-use crate::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody, Pendulum, PolarAngles};
+use crate::mechanics::systems::{
+    DoubleSphericalPendulum, FreeRigidBody, Pendulum, Planet, PolarAngles,
+};
 use crate::mechanics::{Chart, Natural, Scalar, jacobian};
 
 /// All problems.
@@ -37,7 +39,7 @@ pub fn problems() -> Vec<Problem> {
             "planet",
             "Kepler's problem, eccentricity 0.3",
             Planet,
-            ([0.7, 0.0], [0.0, (1.3_f64 / 0.7).sqrt()]),
+            Planet::perihelion(0.3),
         ),
         Problem::natural::<_, 3, 0, 3>(
             "elastic-pendulum",
@@ -57,24 +59,6 @@ fn from_angles<const M: usize, const N: usize, const L: usize>(
     let chart = PolarAngles { lengths: *lengths };
     let (x, slope) = jacobian(&angles, |q| chart.embed(q));
     (x, slope.map(|row| row.iter().zip(&rates).map(|(s, r)| s * r).sum()))
-}
-
-/// A planet about a sun of unit mass and unit gravitational constant, in the plane.
-#[derive(Clone, Copy)]
-struct Planet;
-
-impl Natural<2, 0> for Planet {
-    fn masses(&self) -> [f64; 2] {
-        [1.0; 2]
-    }
-
-    fn potential<D: Scalar>(&self, q: &[D; 2]) -> D {
-        -(q[0] * q[0] + q[1] * q[1]).sqrt().recip()
-    }
-
-    fn constraints<D: Scalar>(&self, _: &[D; 2]) -> [D; 0] {
-        []
-    }
 }
 
 /// 1 kg on a spring of 1 m and 400 N/m.

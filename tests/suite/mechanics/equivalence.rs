@@ -1,13 +1,14 @@
 //! Theorem 2.1: constrained and generalized coordinates give the same discrete trajectory.
 
 use super::systems::{PENDULUM, pendulum};
+use num_dual::Dual64;
 use surefoot_sim::integrators::{Form, Integrator, Method, Rattle, Shake, Variational};
 use surefoot_sim::mechanics::systems::{
-    DoubleSphericalPendulum, FreeRigidBody, Pendulum, PolarAngles,
+    DoubleSphericalPendulum, FreeRigidBody, Pendulum, Planet, PolarAngles,
 };
 use surefoot_sim::mechanics::{
     Chart, DiscreteLagrangian, Endpoint, Generalized, Lagrangian, Midpoint, Momenta, Natural,
-    Scalar,
+    Scalar, action_sum,
 };
 
 /// Largest distance of the two trajectories over 1000 steps, from the same two points.
@@ -246,4 +247,34 @@ fn the_discrete_gradient_conserves_energy_of_any_potential() {
     }
     println!("energy changes by {largest:.1e}");
     assert!(largest < 1e-11, "{largest}");
+}
+
+/// The discrete variational principle: along a motion the action's derivative by every interior point is
+/// zero; off it, it is not.
+#[test]
+fn motions_are_extrema_of_the_action_sum() {
+    let system = Midpoint(Planet);
+    let (q, v) = Planet::perihelion(0.3);
+    let h = 0.05;
+    let mut motion = Variational::<_, 2, 0, 2>::from_velocity(system, h, q, v);
+    let mut path = vec![q];
+    for _ in 0..60 {
+        motion.step().expect("a step");
+        path.push(*motion.configuration());
+    }
+    let slope = |path: &[[f64; 2]], at: usize, along: usize| {
+        let mut dual: Vec<[Dual64; 2]> = path.iter().map(|x| x.map(Dual64::from_re)).collect();
+        dual[at][along].eps = 1.0;
+        action_sum(&system, &dual, h).eps
+    };
+    let steepest = |path: &[[f64; 2]]| {
+        let all = (1..60).flat_map(|at| (0..2).map(move |along| (at, along)));
+        all.map(|(at, along)| slope(path, at, along).abs()).fold(0.0, f64::max)
+    };
+    let on = steepest(&path);
+    path[30][0] += 1e-3;
+    let off = steepest(&path);
+    println!("steepest {on:.1e} on the motion, {off:.1e} off it");
+    // Momenta are of size 1, and divided by the step.
+    assert!(on < 1e-12 && off > 0.1, "{on} {off}");
 }

@@ -1,9 +1,9 @@
 //! What the methods conserve.
 
-use super::systems::{PENDULUM, Planet, body, pendulum};
+use super::systems::{PENDULUM, body, pendulum};
 use num_dual::{Dual, Dual64};
 use surefoot_sim::integrators::{Integrator, Method, Motion, Variational, start_natural};
-use surefoot_sim::mechanics::systems::{FreeRigidBody, PolarAngles};
+use surefoot_sim::mechanics::systems::{FreeRigidBody, Planet, PolarAngles};
 use surefoot_sim::mechanics::{
     Chart, Displacement, Lagrangian, Midpoint, jacobian, symplectic_form,
 };

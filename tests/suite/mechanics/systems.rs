@@ -1,41 +1,16 @@
-//! Systems of the tests' own, written as a user would, and starts of those in the library.
+//! Starts of the library's systems, and a closed form.
 
 use surefoot_sim::integrators::{Method, Motion, StartError, start_free_body, start_natural};
-use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
-use surefoot_sim::mechanics::{Natural, Scalar};
+use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody, Planet};
 
-/// A planet about a sun of unit mass and unit gravitational constant, in the plane.
-#[derive(Clone, Copy)]
-pub struct Planet;
-
-impl Natural<2, 0> for Planet {
-    fn masses(&self) -> [f64; 2] {
-        [1.0; 2]
+/// Where a planet from its perihelion is after a time: Kepler's equation, by Newton's method on a convex
+/// function.
+pub fn planet_at(e: f64, time: f64) -> [f64; 2] {
+    let mut anomaly = time + e;
+    for _ in 0..50 {
+        anomaly -= (anomaly - e * anomaly.sin() - time) / (1.0 - e * anomaly.cos());
     }
-
-    fn potential<D: Scalar>(&self, q: &[D; 2]) -> D {
-        -(q[0] * q[0] + q[1] * q[1]).sqrt().recip()
-    }
-
-    fn constraints<D: Scalar>(&self, _: &[D; 2]) -> [D; 0] {
-        []
-    }
-}
-
-impl Planet {
-    /// Where an orbit of eccentricity e and semi-major axis 1 begins: at its perihelion.
-    pub fn perihelion(e: f64) -> ([f64; 2], [f64; 2]) {
-        ([1.0 - e, 0.0], [0.0, ((1.0 + e) / (1.0 - e)).sqrt()])
-    }
-
-    /// Where it is after a time: Kepler's equation, by Newton's method on a convex function.
-    pub fn at(e: f64, time: f64) -> [f64; 2] {
-        let mut anomaly = time + e;
-        for _ in 0..50 {
-            anomaly -= (anomaly - e * anomaly.sin() - time) / (1.0 - e * anomaly.cos());
-        }
-        [anomaly.cos() - e, (1.0 - e * e).sqrt() * anomaly.sin()]
-    }
+    [anomaly.cos() - e, (1.0 - e * e).sqrt() * anomaly.sin()]
 }
 
 pub const PENDULUM: DoubleSphericalPendulum = DoubleSphericalPendulum::PRINTED;
