@@ -12,6 +12,8 @@ use surefoot::dynamics::{
 use surefoot::model::Tree;
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
+use surefoot_sim::integrators::{Method, start_natural};
+use surefoot_sim::mechanics::systems::DoubleSphericalPendulum;
 use surefoot_sim::multibody::{Chain, ChainJoint, Simulation};
 
 /// One call of an algorithm, joint poses included.
@@ -154,6 +156,20 @@ fn on_rods(links: usize) -> Workload {
     }
 }
 
+/// Steps of both methods of table 2.2 at its middle step.
+fn on_double_pendulum() -> [Workload; 2] {
+    let pendulum = DoubleSphericalPendulum::PRINTED;
+    let (q, v) = pendulum.printed_start();
+    [("dvp", Method::VelocityShake), ("em", Method::EnergyMomentum)].map(|(name, method)| {
+        let start = start_natural::<_, f64, 6, 2, 8>(method, pendulum, 1e-2, q, v);
+        let motion = RefCell::new(start.expect("a start"));
+        Workload {
+            name: format!("{name}-step/double-pendulum/f64"),
+            call: Box::new(move || motion.borrow_mut().step().expect("a step")),
+        }
+    })
+}
+
 /// Everything that is measured.
 pub fn workloads() -> Vec<Workload> {
     let mut all = on_biped("f64", &TREE, &ROBOT);
@@ -165,5 +181,6 @@ pub fn workloads() -> Vec<Workload> {
     all.extend(on_chain::<100>());
     all.extend(on_chain::<200>());
     all.extend([25, 100, 400, 1000].map(on_rods));
+    all.extend(on_double_pendulum());
     all
 }
