@@ -14,7 +14,7 @@ use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
 use surefoot_sim::integrators::{Method, start_natural};
 use surefoot_sim::mechanics::systems::DoubleSphericalPendulum;
-use surefoot_sim::multibody::{Chain, ChainJoint, Simulation};
+use surefoot_sim::multibody::{Chain, ChainJoint, ConstrainedSimulation, Simulation};
 
 /// One call of an algorithm, joint poses included.
 pub struct Workload {
@@ -137,7 +137,7 @@ fn on_chain<const N: usize>() -> Vec<Workload> {
 }
 
 /// Steps of a hanging chain of revolute joints from rest, by the multibody simulator.
-fn on_rods(links: usize) -> Workload {
+fn on_rods(links: usize) -> [Workload; 2] {
     let chain = Chain {
         links,
         mass: 1.0,
@@ -148,12 +148,21 @@ fn on_rods(links: usize) -> Workload {
         gravity: 9.81,
     };
     let (system, still) = (chain.system().expect("a system"), vec![[0.0; 7]; links]);
-    let start = Simulation::new(system, 1e-3, chain.bent(0.05), still).expect("a start");
+    let states = chain.bent(0.05);
+    let start = Simulation::new(system.clone(), 1e-3, &states, &still).expect("a start");
     let simulation = RefCell::new(start);
-    Workload {
-        name: format!("multibody-step/chain-{links}/f64"),
-        call: Box::new(move || simulation.borrow_mut().step().expect("a step")),
-    }
+    let oracle = ConstrainedSimulation::new(system, 1e-3, states, still).expect("a start");
+    let oracle = RefCell::new(oracle);
+    [
+        Workload {
+            name: format!("multibody-step/chain-{links}/f64"),
+            call: Box::new(move || simulation.borrow_mut().step().expect("a step")),
+        },
+        Workload {
+            name: format!("constrained-step/chain-{links}/f64"),
+            call: Box::new(move || oracle.borrow_mut().step().expect("a step")),
+        },
+    ]
 }
 
 /// Steps of both methods of table 2.2 at its middle step.
@@ -180,7 +189,7 @@ pub fn workloads() -> Vec<Workload> {
     all.extend(on_chain::<50>());
     all.extend(on_chain::<100>());
     all.extend(on_chain::<200>());
-    all.extend([25, 100, 400, 1000].map(on_rods));
+    all.extend([25, 100, 400, 1000].into_iter().flat_map(on_rods));
     all.extend(on_double_pendulum());
     all
 }

@@ -1,9 +1,14 @@
 //! The contact model of §5.2: points against a horizontal floor, each with a state of its own.
+//!
+//! [`ContactPoint::evaluate`] gives the force at an instant, for explicit methods;
+//! [`ContactPoint::over_step`] that of a step of an implicit one, with its derivative.
 
 mod floor;
 mod point;
 mod state;
+mod step_force;
 
 pub use floor::Floor;
 pub use point::{ContactPoint, PointForce};
 pub use state::{Conditions, ContactState, TRANSITIONS};
+pub use step_force::{StepForce, Switching};

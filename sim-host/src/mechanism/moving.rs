@@ -20,13 +20,13 @@ pub trait Moving {
     ///
     /// # Errors
     /// Where the method's momentum belongs to no velocity.
-    fn state(&self) -> Result<(Vec<f64>, Vec<f64>), StepError>;
+    fn state(&mut self) -> Result<(Vec<f64>, Vec<f64>), StepError>;
 
     /// Energy, J; angular momentum as far as it is conserved, N·m·s; largest constraint.
     ///
     /// # Errors
     /// As for [`Self::state`].
-    fn conserved(&self) -> Result<(f64, Vec<f64>, f64), StepError>;
+    fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError>;
 
     /// Time and statistics.
     fn progress(&self) -> &Progress;
@@ -51,11 +51,11 @@ impl<S: Lagrangian<N, C>, const N: usize, const C: usize> Moving for Moved<S, N,
         self.motion.step()
     }
 
-    fn state(&self) -> Result<(Vec<f64>, Vec<f64>), StepError> {
+    fn state(&mut self) -> Result<(Vec<f64>, Vec<f64>), StepError> {
         Ok((self.motion.configuration().to_vec(), self.motion.velocity()?.to_vec()))
     }
 
-    fn conserved(&self) -> Result<(f64, Vec<f64>, f64), StepError> {
+    fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError> {
         let (x, v) = (self.motion.configuration(), self.motion.velocity()?);
         let constraints: [Dual64; C] = self.system.constraints(&x.map(Dual64::from_re));
         let largest = constraints.iter().fold(0.0, |m: f64, g| m.max(g.re.abs()));
@@ -80,20 +80,21 @@ impl Moving for Simulation {
         Self::step(self)
     }
 
-    fn state(&self) -> Result<(Vec<f64>, Vec<f64>), StepError> {
+    fn state(&mut self) -> Result<(Vec<f64>, Vec<f64>), StepError> {
         Ok((self.states().concat(), self.rates()?.concat()))
     }
 
     /// Of angular momentum, nothing is conserved that is not the pivot's affair, unless the chain floats
     /// without gravity.
-    fn conserved(&self) -> Result<(f64, Vec<f64>, f64), StepError> {
+    fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError> {
         let (states, rates) = (self.states(), self.rates()?);
+        let energy = self.energies().map(|(kinetic, potential)| kinetic + potential)?;
         let system = self.system();
         let is_free = system.gravity() == 0.0
             && system.links().iter().all(|l| l.inboard.is_some() || l.joint.constraints() == 0);
         let momentum =
-            if is_free { system.momentum(states, &rates).1.to_vec() } else { Vec::new() };
-        Ok((system.energy(states, &rates), momentum, system.largest_constraint(states)))
+            if is_free { system.momentum(&states, &rates).1.to_vec() } else { Vec::new() };
+        Ok((energy, momentum, system.largest_constraint(&states)))
     }
 
     fn progress(&self) -> &Progress {
@@ -163,7 +164,7 @@ pub fn start(scene: &MechanismScene) -> Result<Box<dyn Moving>, StartFailure> {
             };
             let (states, still) = (chain.bent(bend_deg.to_radians()), vec![[0.0; 7]; *links]);
             let h = scene.integrator.step_s;
-            Ok(Box::new(Simulation::new(chain.system()?, h, states, still)?))
+            Ok(Box::new(Simulation::new(chain.system()?, h, &states, &still)?))
         }
         Mechanism::Pendulum { gravity_m_s2, links } => match links.len() {
             1 => pendulum::<1, 2, 3, 4>(scene, *gravity_m_s2, links),

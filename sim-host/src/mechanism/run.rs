@@ -67,7 +67,7 @@ pub fn run(scene: &MechanismScene, at: &mut dyn FnMut(f64)) -> Result<MechanismR
     let begun = Instant::now();
     for step in 0..=steps {
         let is_sample = step % every == 0 || step == steps;
-        if let Err(error) = look(moving.as_ref(), &mut run, is_sample) {
+        if let Err(error) = look(moving.as_mut(), &mut run, is_sample) {
             run.failure = Some(error);
             break;
         }
@@ -87,7 +87,7 @@ pub fn run(scene: &MechanismScene, at: &mut dyn FnMut(f64)) -> Result<MechanismR
     Ok(run)
 }
 
-fn look(moving: &dyn Moving, run: &mut MechanismRun, is_sample: bool) -> Result<(), StepError> {
+fn look(moving: &mut dyn Moving, run: &mut MechanismRun, is_sample: bool) -> Result<(), StepError> {
     run.progress = *moving.progress();
     let (energy, momentum, constraint) = moving.conserved()?;
     run.energy_range = [run.energy_range[0].min(energy), run.energy_range[1].max(energy)];

@@ -46,7 +46,7 @@ impl Chain {
         let across = m * (3.0 * r * r + l * l) / 12.0;
         let body = Body { mass: m, inertia: [across, across, 0.5 * m * r * r] };
         let half = 0.5 * l;
-        let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+        let (x, y) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
         let links = (0..self.links)
             .map(|k| {
                 let inboard = k.checked_sub(1);
@@ -54,14 +54,19 @@ impl Chain {
                     _ if k == 0 && self.floats => JointConstraint::Floating,
                     ChainJoint::Spherical => JointConstraint::Spherical,
                     ChainJoint::Alternating if k % 2 == 0 => {
-                        JointConstraint::Revolute { axis: x, across: [y, z] }
+                        JointConstraint::Revolute { axis: x }
                     }
-                    _ => JointConstraint::Revolute { axis: y, across: [x, z] },
+                    _ => JointConstraint::Revolute { axis: y },
                 };
                 let at = if inboard.is_some() { [0.0, 0.0, -half] } else { [0.0; 3] };
                 Link {
                     inboard,
-                    joint: Joint { outboard: [0.0, 0.0, half], inboard: at, constraint },
+                    joint: Joint {
+                        outboard: [0.0, 0.0, half],
+                        inboard: at,
+                        home: [1.0, 0.0, 0.0, 0.0],
+                        constraint,
+                    },
                     body,
                 }
             })

@@ -4,7 +4,7 @@
 //! `o, i`: outboard and inboard body; `a_o, a_i`: the joint's point in their frames; `R v = q ⋆ v ⋆ q̄`,
 //! for a quaternion of any length, as Newton's iterates have
 
-use super::tree_solver::{COORDINATES, MOST};
+use super::constrained::tree_solver::{COORDINATES, MOST};
 use crate::mechanics::Scalar;
 
 /// Constraints that a joint may have.
@@ -17,6 +17,8 @@ pub struct Joint {
     pub outboard: [f64; 3],
     /// `a_i`: its point in the inboard body, m.
     pub inboard: [f64; 3],
+    /// Outboard's orientation in the inboard body where the joint's angles are zero, scalar first.
+    pub home: [f64; 4],
     /// What it keeps.
     pub constraint: JointConstraint,
 }
@@ -39,21 +41,14 @@ pub enum JointConstraint {
     Revolute {
         /// In the outboard body.
         axis: [f64; 3],
-        /// Two directions at right angles to it, in the inboard body.
-        across: [[f64; 3]; 2],
     },
     /// The orientation, and the points on an axis: 5.
     Prismatic {
-        /// Two directions at right angles to the axis, in the inboard body.
-        across: [[f64; 3]; 2],
-        /// Outboard's orientation in the inboard body, scalar first.
-        orientation: [f64; 4],
+        /// In the inboard body.
+        axis: [f64; 3],
     },
     /// The points together, and the orientation: 6.
-    Fixed {
-        /// Outboard's orientation in the inboard body, scalar first.
-        orientation: [f64; 4],
-    },
+    Fixed,
 }
 
 impl Joint {
@@ -64,7 +59,7 @@ impl Joint {
             JointConstraint::Spherical => 3,
             JointConstraint::Universal { .. } => 4,
             JointConstraint::Revolute { .. } | JointConstraint::Prismatic { .. } => 5,
-            JointConstraint::Fixed { .. } => 6,
+            JointConstraint::Fixed => 6,
         }
     }
 
@@ -83,18 +78,19 @@ impl Joint {
                 let square = dot(&rotated(&q_i, inboard_axis), &rotated(&q_o, outboard_axis));
                 [x, y, z, square, zero, zero]
             }
-            JointConstraint::Revolute { axis, across: [u, w] } => {
+            JointConstraint::Revolute { axis } => {
+                let [u, w] = across(&rotated(&self.home, axis));
                 let axis = rotated(&q_o, axis);
-                let square = [u, w].map(|v| dot(&rotated(&q_i, v), &axis));
+                let square = [u, w].map(|v| dot(&rotated(&q_i, &v), &axis));
                 [x, y, z, square[0], square[1], zero]
             }
-            JointConstraint::Prismatic { across: [u, w], orientation } => {
-                let off = [u, w].map(|v| dot(&rotated(&q_i, v), &apart));
-                let [a, b, c] = turned_away(&q_o, &q_i, orientation);
+            JointConstraint::Prismatic { axis } => {
+                let off = across(axis).map(|v| dot(&rotated(&q_i, &v), &apart));
+                let [a, b, c] = turned_away(&q_o, &q_i, &self.home);
                 [off[0], off[1], a, b, c, zero]
             }
-            JointConstraint::Fixed { orientation } => {
-                let [a, b, c] = turned_away(&q_o, &q_i, orientation);
+            JointConstraint::Fixed => {
+                let [a, b, c] = turned_away(&q_o, &q_i, &self.home);
                 [x, y, z, a, b, c]
             }
         }
@@ -114,17 +110,17 @@ impl Joint {
                 rows.together(&points);
                 rows.square(3, (&q_o, outboard_axis), (&q_i, inboard_axis));
             }
-            JointConstraint::Revolute { axis, across } => {
+            JointConstraint::Revolute { axis } => {
                 rows.together(&points);
-                for (k, across) in across.iter().enumerate() {
+                for (k, across) in across(&rotated(&self.home, axis)).iter().enumerate() {
                     rows.square(3 + k, (&q_o, axis), (&q_i, across));
                 }
             }
-            JointConstraint::Prismatic { across, orientation } => {
+            JointConstraint::Prismatic { axis } => {
                 let (at_o, at_i) = (rotated(&q_o, &self.outboard), rotated(&q_i, &self.inboard));
                 let apart: [f64; 3] =
                     std::array::from_fn(|k| outboard[k] + at_o[k] - inboard[k] - at_i[k]);
-                for (k, across) in across.iter().enumerate() {
+                for (k, across) in across(axis).iter().enumerate() {
                     let direction = rotated(&q_i, across);
                     let slope = rotation_slope(&q_i, across);
                     for i in 0..3 {
@@ -137,11 +133,11 @@ impl Joint {
                         }
                     }
                 }
-                rows.oriented(2, (&q_o, &q_i), orientation);
+                rows.oriented(2, (&q_o, &q_i), &self.home);
             }
-            JointConstraint::Fixed { orientation } => {
+            JointConstraint::Fixed => {
                 rows.together(&points);
-                rows.oriented(3, (&q_o, &q_i), orientation);
+                rows.oriented(3, (&q_o, &q_i), &self.home);
             }
         }
         rows
@@ -204,6 +200,15 @@ impl Rows {
     }
 }
 
+/// Two unit vectors at right angles to an axis and to each other.
+fn across([x, y, z]: &[f64; 3]) -> [[f64; 3]; 2] {
+    // Duff et al. 2017, "Building an orthonormal basis, revisited".
+    let sign = 1.0_f64.copysign(*z);
+    let a = -1.0 / (sign + z);
+    let b = x * y * a;
+    [[1.0 + sign * x * x * a, sign * b, -sign * x], [b, sign + y * y * a, -y]]
+}
+
 /// Derivative of [`rotated`] with respect to the quaternion.
 fn rotation_slope([s, a, b, c]: &[f64; 4], v: &[f64; 3]) -> [[f64; 4]; 3] {
     let u = [*a, *b, *c];
@@ -228,7 +233,7 @@ fn quaternion<D: Scalar>(x: &[D; 7]) -> [D; 4] {
 }
 
 /// `vec(q ⋆ (0, v) ⋆ q̄) = (s² − |u|²) v + 2 (u·v) u + 2 s u × v`
-fn rotated<D: Scalar>([s, a, b, c]: &[D; 4], v: &[f64; 3]) -> [D; 3] {
+pub(super) fn rotated<D: Scalar>([s, a, b, c]: &[D; 4], v: &[f64; 3]) -> [D; 3] {
     let (s, u) = (*s, [*a, *b, *c]);
     let along = (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]) * 2.0;
     let scale = s * s - u[0] * u[0] - u[1] * u[1] - u[2] * u[2];
@@ -244,7 +249,7 @@ fn turned_away<D: Scalar>(q_o: &[D; 4], q_i: &[D; 4], r: &[f64; 4]) -> [D; 3] {
     [x, y, z]
 }
 
-fn product<D: Scalar>(a: &[D; 4], b: &[D; 4]) -> [D; 4] {
+pub(super) fn product<D: Scalar>(a: &[D; 4], b: &[D; 4]) -> [D; 4] {
     [
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
         a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],

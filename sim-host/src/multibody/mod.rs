@@ -1,21 +1,24 @@
-//! The symplectic simulator of multibody systems (§5.4), faithful to the text: a position and a unit
-//! quaternion for each body, joints as constraints, Newton steps in linear time.
+//! The symplectic simulator of multibody systems (§5.4).
 //!
 //! ```text
-//! Body, Joint ─► System ─► Simulation ─ residual (5.11), Jacobian (5.13) ─► TreeEquations ─ Alg. 5.1 ─► step
+//! Body, Joint ─► System ─┬► Simulation: joint coordinates, what every scene with bodies runs on
+//!                        └► ConstrainedSimulation: as the text has it (5.11), (5.13), Alg. 5.1; the oracle
 //! ```
 
 mod body;
 mod chain;
+mod closure;
+mod constrained;
 mod joint;
-mod simulation;
+mod joint_law;
+mod recursive;
 mod system;
-mod tree_solver;
-mod trial;
 
 pub use body::{Body, BodyState};
 pub use chain::{Chain, ChainJoint};
+pub use closure::{Closing, Closure, ConstraintFunction};
+pub use constrained::{ConstrainedSimulation, Correction, Equations, SingularJoint, TreeEquations};
 pub use joint::{Joint, JointConstraint, MOST_CONSTRAINTS, Rows};
-pub use simulation::Simulation;
-pub use system::{Link, System, SystemError};
-pub use tree_solver::{Correction, Equations, SingularJoint, TreeEquations};
+pub use joint_law::{JointLaw, Stops};
+pub use recursive::Simulation;
+pub use system::{Link, Site, System, SystemError};

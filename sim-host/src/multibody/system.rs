@@ -1,7 +1,10 @@
 //! A tree of bodies and joints.
 
 use super::body::{Body, BodyState};
-use super::joint::Joint;
+use super::closure::Closure;
+use super::joint::{Joint, JointConstraint};
+use super::joint_law::JointLaw;
+use crate::contact::{Floor, Switching};
 
 /// A body with the joint that holds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,12 +17,25 @@ pub struct Link {
     pub body: Body,
 }
 
-/// A tree, inboard links first.
-#[derive(Clone, Debug, PartialEq)]
+/// A point of a body that can touch the floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// The body's link.
+    pub link: usize,
+    /// In the body's frame, m.
+    pub position: [f64; 3],
+}
+
+/// A tree, inboard links first, and what acts on it. What it does not have costs nothing.
+#[derive(Clone, Debug)]
 pub struct System {
     links: Vec<Link>,
     /// m/s², against z.
     gravity: f64,
+    laws: Vec<(usize, JointLaw)>,
+    ground: Option<(Floor, Switching)>,
+    sites: Vec<Site>,
+    closures: Vec<Closure>,
 }
 
 /// Why there is no such system, or no such start.
@@ -63,6 +79,50 @@ pub enum SystemError {
         /// By how much, itself or its rate.
         value: f64,
     },
+    /// A joint cannot have this law.
+    #[error("link {link}: a spring, a damper or stops need a revolute or prismatic joint, and finite numbers, zero or more")]
+    Law {
+        /// Which one.
+        link: usize,
+    },
+    /// A contact site is on no body, or not at finite coordinates.
+    #[error("contact site {site}: a link that exists and finite coordinates are needed")]
+    Site {
+        /// Which one.
+        site: usize,
+    },
+    /// A floor's parameter cannot be used.
+    #[error("the floor's {parameter} is {value}: expected {expected}")]
+    Floor {
+        /// Which one.
+        parameter: &'static str,
+        /// What it is.
+        value: f64,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// A loop is closed between bodies that are not there, or with itself.
+    #[error("loop {closure}: it must join two links that exist, or one and the world")]
+    Closure {
+        /// Which one.
+        closure: usize,
+    },
+    /// A start violates a loop's constraint.
+    #[error("loop {closure}: the start violates its constraint by {value:.1e}")]
+    OpenLoop {
+        /// Which one.
+        closure: usize,
+        /// By how much, itself or its rate.
+        value: f64,
+    },
+    /// Loops have more constraints than can be solved.
+    #[error("loops have {constraints} constraints, and {most} at most can be solved")]
+    TooManyLoops {
+        /// How many there are.
+        constraints: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// The step is no time.
     #[error("a step of {h} s: a positive number is needed")]
     Step {
@@ -89,7 +149,90 @@ impl System {
                 return Err(SystemError::Inertia { link: number });
             }
         }
-        Ok(Self { links, gravity })
+        Ok(Self {
+            links,
+            gravity,
+            laws: Vec::new(),
+            ground: None,
+            sites: Vec::new(),
+            closures: Vec::new(),
+        })
+    }
+
+    /// With a spring, damping or stops in the joint of a link.
+    ///
+    /// # Errors
+    /// [`SystemError::Law`].
+    pub fn with_law(mut self, link: usize, law: JointLaw) -> Result<Self, SystemError> {
+        let has_one_coordinate = self.links.get(link).is_some_and(|l| {
+            let constraint = l.joint.constraint;
+            matches!(constraint, JointConstraint::Revolute { .. } | JointConstraint::Prismatic { .. })
+        });
+        if !(has_one_coordinate && law.is_valid()) {
+            return Err(SystemError::Law { link });
+        }
+        self.laws.push((link, law));
+        Ok(self)
+    }
+
+    /// On a floor that these points can touch.
+    ///
+    /// # Errors
+    /// [`SystemError::Floor`], [`SystemError::Site`].
+    pub fn on_floor(
+        mut self,
+        floor: Floor,
+        switching: Switching,
+        mut sites: Vec<Site>,
+    ) -> Result<Self, SystemError> {
+        if let Some((parameter, value, expected)) = floor.invalid() {
+            return Err(SystemError::Floor { parameter, value, expected });
+        }
+        let is_bad = |site: &Site| {
+            site.link >= self.links.len() || !site.position.iter().all(|x| x.is_finite())
+        };
+        if let Some(site) = sites.iter().position(is_bad) {
+            return Err(SystemError::Site { site });
+        }
+        // The order in which bodies are visited.
+        sites.sort_by_key(|site| site.link);
+        self.ground = Some((floor, switching));
+        self.sites = sites;
+        Ok(self)
+    }
+
+    /// With a joint that closes a loop.
+    ///
+    /// # Errors
+    /// [`SystemError::Closure`].
+    pub fn with_closure(mut self, closure: Closure) -> Result<Self, SystemError> {
+        let exists = |link: usize| link < self.links.len();
+        let (outboard, inboard) = (closure.outboard, closure.inboard);
+        if !exists(outboard) || inboard.is_some_and(|i| !exists(i) || i == outboard) {
+            return Err(SystemError::Closure { closure: self.closures.len() });
+        }
+        self.closures.push(closure);
+        Ok(self)
+    }
+
+    /// Laws of joints, by link.
+    pub fn laws(&self) -> &[(usize, JointLaw)] {
+        &self.laws
+    }
+
+    /// The floor, and when points enter and leave it.
+    pub fn ground(&self) -> Option<&(Floor, Switching)> {
+        self.ground.as_ref()
+    }
+
+    /// Points that can touch the floor, by link.
+    pub fn sites(&self) -> &[Site] {
+        &self.sites
+    }
+
+    /// Joints that close loops.
+    pub fn closures(&self) -> &[Closure] {
+        &self.closures
     }
 
     /// The links.
@@ -131,6 +274,11 @@ impl System {
             }
             largest = largest.max((x[3..].iter().map(|q| q * q).sum::<f64>() - 1.0).abs());
         }
+        for closure in &self.closures {
+            for g in closure.at(states).error {
+                largest = largest.max(g.abs());
+            }
+        }
         largest
     }
 
@@ -167,6 +315,20 @@ impl System {
                 .fold(norm.abs().max(norm_rate.abs() / speed), f64::max);
             if !(worst <= CLOSE * x.iter().fold(1.0_f64, |m, x| m.max(x.abs()))) {
                 return Err(SystemError::OffManifold { link, value: worst });
+            }
+        }
+        for (number, closure) in self.closures.iter().enumerate() {
+            let rows = closure.at(states);
+            let (v_o, v_i) = closure.ends(rates, &still);
+            let worst = (0..closure.constraints()).fold(0.0_f64, |m, c| {
+                let rate: f64 = (0..7)
+                    .map(|i| rows.outboard[c][i] * v_o[i] + rows.inboard[c][i] * v_i[i])
+                    .sum();
+                let found = rows.error[c].abs().max(rate.abs());
+                if found > m || found.is_nan() { found } else { m }
+            });
+            if !(worst <= CLOSE * 10.0) {
+                return Err(SystemError::OpenLoop { closure: number, value: worst });
             }
         }
         Ok(())

@@ -1,13 +1,11 @@
 //! Motions of chains and trees.
 
-use rand::{RngExt, SeedableRng};
-use rand_pcg::Pcg64Mcg;
+use super::trees::{floating_chain, mixed_tree};
 use surefoot_sim::multibody::{
-    Body, BodyState, Chain, ChainJoint, Joint, JointConstraint, Link, Simulation, System,
-    SystemError,
+    Body, BodyState, Chain, ChainJoint, Link, Simulation, System, SystemError,
 };
 
-const CHAIN: Chain = Chain {
+pub const CHAIN: Chain = Chain {
     links: 10,
     mass: 1.0,
     length: 0.5,
@@ -20,7 +18,7 @@ const CHAIN: Chain = Chain {
 fn at_rest(chain: &Chain, angle: f64, h: f64) -> Simulation {
     let system = chain.system().expect("a system");
     let still = vec![[0.0; 7]; chain.links];
-    Simulation::new(system, h, chain.bent(angle), still).expect("a start")
+    Simulation::new(system, h, &chain.bent(angle), &still).expect("a start")
 }
 
 /// One link on a hinge is the physical pendulum: its period by the arithmetic-geometric mean.
@@ -38,13 +36,13 @@ fn one_link_is_the_physical_pendulum() {
     let period = std::f64::consts::TAU / (small * a);
     let error = |steps: usize| {
         let mut simulation = at_rest(&chain, amplitude, period / steps as f64);
-        let start = simulation.states()[0];
+        let start = simulation.state(0);
         for _ in 0..steps {
             simulation.step().expect("a step");
         }
         // At rest again, so that errors in time show in the velocity.
         let rates = simulation.rates().expect("rates");
-        let apart = (simulation.states()[0][0] - start[0]).abs();
+        let apart = (simulation.state(0)[0] - start[0]).abs();
         (rates[0][0].abs(), apart)
     };
     let (coarse, fine) = (error(200).0, error(400).0);
@@ -65,21 +63,21 @@ fn free_trees_keep_their_momenta() {
             Some(joint) => floating_chain(links, joint),
             None => mixed_tree(links),
         };
-        let mut simulation = Simulation::new(system, 2e-3, states, rates).expect("a start");
-        let momentum = |simulation: &Simulation| {
+        let mut simulation = Simulation::new(system, 2e-3, &states, &rates).expect("a start");
+        let momentum = |simulation: &mut Simulation| {
             let rates = simulation.rates().expect("rates");
-            let (linear, angular) = simulation.system().momentum(simulation.states(), &rates);
+            let (linear, angular) = simulation.system().momentum(&simulation.states(), &rates);
             [linear, angular]
         };
-        let first = momentum(&simulation);
+        let first = momentum(&mut simulation);
         let mut constraint = 0.0_f64;
         let mut drift = 0.0_f64;
         for step in 0..10_000 {
             simulation.step().unwrap_or_else(|error| panic!("{name}: {error}"));
             if step % 100 == 0 {
                 constraint =
-                    constraint.max(simulation.system().largest_constraint(simulation.states()));
-                for (now, then) in momentum(&simulation).iter().zip(&first) {
+                    constraint.max(simulation.system().largest_constraint(&simulation.states()));
+                for (now, then) in momentum(&mut simulation).iter().zip(&first) {
                     let size = then.iter().map(|m| m * m).sum::<f64>().sqrt();
                     for (a, b) in now.iter().zip(then) {
                         drift = drift.max((a - b).abs() / size);
@@ -97,85 +95,21 @@ fn free_trees_keep_their_momenta() {
     }
 }
 
-/// A chain in space that turns and bends: velocities of a rigid turn, and gravity none.
-fn floating_chain(links: usize, joint: ChainJoint) -> (System, Vec<BodyState>, Vec<BodyState>) {
-    let chain = Chain { links, joint, floats: true, gravity: 0.0, ..CHAIN };
-    let states = chain.bent(0.2);
-    let rates = rigid(&states, [0.3, -0.2, 0.5], [0.7, 1.1, -0.4]);
-    (chain.system().expect("a system"), states, rates)
-}
-
-/// Rates of bodies that move as one.
-fn rigid(states: &[BodyState], v: [f64; 3], w: [f64; 3]) -> Vec<BodyState> {
-    states
-        .iter()
-        .map(|x| {
-            let turn =
-                [w[1] * x[2] - w[2] * x[1], w[2] * x[0] - w[0] * x[2], w[0] * x[1] - w[1] * x[0]];
-            // (0, ω/2) ⋆ q with ω in the world's frame.
-            let q = [
-                -0.5 * (w[0] * x[4] + w[1] * x[5] + w[2] * x[6]),
-                0.5 * (w[0] * x[3] + w[1] * x[6] - w[2] * x[5]),
-                0.5 * (w[1] * x[3] + w[2] * x[4] - w[0] * x[6]),
-                0.5 * (w[2] * x[3] + w[0] * x[5] - w[1] * x[4]),
-            ];
-            [v[0] + turn[0], v[1] + turn[1], v[2] + turn[2], q[0], q[1], q[2], q[3]]
-        })
-        .collect()
-}
-
-/// A random tree with all kinds of joints, all frames parallel at the start, turning as one.
-fn mixed_tree(links: usize) -> (System, Vec<BodyState>, Vec<BodyState>) {
-    let mut random = Pcg64Mcg::seed_from_u64(50);
-    let mut uniform = |low: f64, high: f64| random.random_range(low..high);
-    let (mut all, mut states) = (Vec::new(), Vec::<BodyState>::new());
-    let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
-    let upright = [1.0, 0.0, 0.0, 0.0];
-    for k in 0..links {
-        let inboard = (k > 0).then(|| (uniform(0.0, 1.0) * k as f64) as usize);
-        let constraint = match k % 5 {
-            _ if k == 0 => JointConstraint::Floating,
-            0 => JointConstraint::Spherical,
-            1 => JointConstraint::Revolute { axis: x, across: [y, z] },
-            2 => JointConstraint::Universal { outboard_axis: x, inboard_axis: y },
-            3 => JointConstraint::Fixed { orientation: upright },
-            _ => JointConstraint::Prismatic { across: [x, y], orientation: upright },
-        };
-        let arm = |uniform: &mut dyn FnMut(f64, f64) -> f64| -> [f64; 3] {
-            std::array::from_fn(|_| uniform(-0.2, 0.2))
-        };
-        let (outboard, at) = (arm(&mut uniform), arm(&mut uniform));
-        let centre: [f64; 3] = match inboard {
-            None => [0.0; 3],
-            Some(i) => std::array::from_fn(|c| states[i][c] + at[c] - outboard[c]),
-        };
-        states.push([centre[0], centre[1], centre[2], 1.0, 0.0, 0.0, 0.0]);
-        let body = Body {
-            mass: uniform(0.5, 2.0),
-            inertia: [uniform(0.02, 0.03), uniform(0.02, 0.03), uniform(0.02, 0.03)],
-        };
-        all.push(Link { inboard, joint: Joint { outboard, inboard: at, constraint }, body });
-    }
-    // Slow enough that sliders do not fly far out.
-    let rates = rigid(&states, [0.2, 0.1, -0.3], [0.3, 0.5, -0.2]);
-    (System::new(all, 0.0).expect("a system"), states, rates)
-}
-
 /// The 10-link chain at 1 ms: energy in a narrow band without a slope, constraints at round-off.
 #[test]
 fn energy_of_a_chain_has_no_slope() {
     let mut simulation = at_rest(&CHAIN, 0.3, 1e-3);
-    let energy = |simulation: &Simulation| {
+    let energy = |simulation: &mut Simulation| {
         let rates = simulation.rates().expect("rates");
-        simulation.system().energy(simulation.states(), &rates)
+        simulation.system().energy(&simulation.states(), &rates)
     };
-    let first = energy(&simulation);
+    let first = energy(&mut simulation);
     let (mut low, mut high) = (first, first);
     let (mut n, mut t, mut e, mut tt, mut te) = (0.0, 0.0, 0.0, 0.0, 0.0);
     let (mut constraint, mut fastest) = (0.0_f64, 0.0_f64);
     for step in 0..100_000 {
         if step % 20 == 0 {
-            let (time, now) = (simulation.progress().time_s, energy(&simulation));
+            let (time, now) = (simulation.progress().time_s, energy(&mut simulation));
             (low, high) = (low.min(now), high.max(now));
             let rates = simulation.rates().expect("rates");
             fastest = rates.iter().fold(fastest, |m, v| m.max(v[0].abs()));
@@ -185,7 +119,7 @@ fn energy_of_a_chain_has_no_slope() {
             tt += time * time;
             te += time * (now - first);
             constraint =
-                constraint.max(simulation.system().largest_constraint(simulation.states()));
+                constraint.max(simulation.system().largest_constraint(&simulation.states()));
         }
         simulation.step().expect("a step");
     }
@@ -220,7 +154,7 @@ fn impossible_systems_and_starts_are_refused() {
     let system = CHAIN.system().expect("a system");
     let (states, still) = (CHAIN.bent(0.3), vec![[0.0; 7]; 10]);
     let start = |h, states: Vec<BodyState>, rates: Vec<BodyState>| {
-        Simulation::new(system.clone(), h, states, rates).err()
+        Simulation::new(system.clone(), h, &states, &rates).err()
     };
     for h in [0.0, f64::NAN, -1.0] {
         assert!(matches!(start(h, states.clone(), still.clone()), Some(SystemError::Step { .. })));

@@ -152,17 +152,17 @@ fn rows_of_joints_are_the_automatic_ones() {
     let mut uniform = |low: f64, high: f64| random.random_range(low..high);
     for _ in 0..50 {
         let mut vector = || std::array::from_fn(|_| uniform(-1.0, 1.0));
-        let (axis, u, w) = (vector(), vector(), vector());
-        let orientation = [0.5, -0.5, 0.1, 0.7];
+        let (axis, u) = (vector(), vector());
+        let home = [0.5, -0.5, 0.1, 0.7];
         for constraint in [
             JointConstraint::Floating,
             JointConstraint::Spherical,
             JointConstraint::Universal { outboard_axis: axis, inboard_axis: u },
-            JointConstraint::Revolute { axis, across: [u, w] },
-            JointConstraint::Prismatic { across: [u, w], orientation },
-            JointConstraint::Fixed { orientation },
+            JointConstraint::Revolute { axis },
+            JointConstraint::Prismatic { axis },
+            JointConstraint::Fixed,
         ] {
-            let joint = Joint { outboard: vector(), inboard: vector(), constraint };
+            let joint = Joint { outboard: vector(), inboard: vector(), home, constraint };
             let [o, i]: [[f64; 7]; 2] = [(); 2]
                 .map(|()| [vector(), vector(), vector()].concat()[..7].try_into().expect("7"));
             let rows = joint.rows(&o, &i);

@@ -11,8 +11,8 @@
 //! `γ, λ` are impulses, and constraints are divided by the step: with that the Jacobian's blocks are
 //! `[M −Gᵀ; G 0]` with no power of h, where the raw one's condition grows as h⁻².
 
-use super::body::BodyState;
-use super::system::{System, SystemError, WORLD};
+use super::super::body::BodyState;
+use super::super::system::{System, SystemError, WORLD};
 use super::tree_solver::{Correction, Equations, TreeEquations};
 use super::trial::Trial;
 use crate::integrators::{Progress, StepError, StepFailure};
@@ -20,7 +20,7 @@ use crate::newton::NewtonFailure;
 
 /// A motion of a system.
 #[derive(Clone, Debug)]
-pub struct Simulation {
+pub struct ConstrainedSimulation {
     system: System,
     states: Vec<BodyState>,
     /// Mean velocities of the last step.
@@ -44,7 +44,7 @@ const TOLERANCE: f64 = 1e-10;
 /// Residuals that count as a root at once.
 const ROUND_OFF: f64 = 1e-14;
 
-impl Simulation {
+impl ConstrainedSimulation {
     /// From states and rates on the manifold, without spoiling the order.
     ///
     /// # Errors

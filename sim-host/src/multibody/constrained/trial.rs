@@ -1,6 +1,6 @@
 //! A step's iterates: where Newton's method is, and where it came from.
 
-use super::body::BodyState;
+use super::super::body::BodyState;
 use super::tree_solver::Correction;
 
 /// Room for a step's iterates.

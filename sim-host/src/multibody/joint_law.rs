@@ -1,0 +1,119 @@
+//! Springs, dampers and stops in joints.
+
+use serde::{Deserialize, Serialize};
+
+/// A joint's own torque (or force, if it slides): a spring, a damper, and stops that yield.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct JointLaw {
+    /// N·m/rad, or N/m.
+    pub stiffness: f64,
+    /// Where the spring is at rest, rad or m.
+    pub rest: f64,
+    /// N·m·s/rad, or N·s/m.
+    pub damping: f64,
+    /// Ends of the joint's way.
+    pub stops: Option<Stops>,
+}
+
+/// Ends of a joint's way: springs that press only outside of it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stops {
+    /// rad or m
+    pub low: f64,
+    /// rad or m
+    pub high: f64,
+    /// N·m/rad or N/m
+    pub stiffness: f64,
+}
+
+impl JointLaw {
+    /// Whether all its numbers can be used.
+    pub fn is_valid(&self) -> bool {
+        let fine = |x: f64| x.is_finite() && x >= 0.0;
+        let stops = self.stops.is_none_or(|s| {
+            fine(s.stiffness) && s.low.is_finite() && s.high.is_finite() && s.low < s.high
+        });
+        fine(self.stiffness) && fine(self.damping) && self.rest.is_finite() && stops
+    }
+
+    /// Torque over a step from `a` to `b`, and its derivative with respect to `b`. Springs and stops give
+    /// the mean slope of their energy over the step (Gonzalez' discrete gradient), so that what they
+    /// give back is what they took, whatever the step.
+    pub fn over_step(&self, a: f64, way: f64, h: f64) -> (f64, f64) {
+        let b = a + way;
+        let mut torque = -self.stiffness * (0.5 * (a + b) - self.rest) - self.damping * way / h;
+        let mut slope = -0.5 * self.stiffness - self.damping / h;
+        if let Some(stops) = self.stops {
+            // How far each end is beyond a stop.
+            let beyond = |x: f64| (x - stops.high).max(0.0) + (x - stops.low).min(0.0);
+            let (from, to) = (beyond(a), beyond(b));
+            let k = stops.stiffness;
+            if from != 0.0 && to != 0.0 && (from > 0.0) == (to > 0.0) {
+                torque -= 0.5 * k * (from + to);
+                slope -= 0.5 * k;
+            } else if way != 0.0 {
+                let mean = 0.5 * k * (to * to - from * from) / way;
+                torque -= mean;
+                slope -= (k * to - mean) / way;
+            }
+        }
+        (torque, slope)
+    }
+
+    /// Energy held at `x`, J.
+    pub fn energy(&self, x: f64) -> f64 {
+        let spring = 0.5 * self.stiffness * (x - self.rest).powi(2);
+        spring + self.stops.map_or(0.0, |s| {
+            let beyond = (x - s.high).max(0.0) + (x - s.low).min(0.0);
+            0.5 * s.stiffness * beyond * beyond
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LAW: JointLaw = JointLaw {
+        stiffness: 3.0,
+        rest: 0.2,
+        damping: 0.0,
+        stops: Some(Stops { low: -0.5, high: 0.5, stiffness: 40.0 }),
+    };
+
+    /// For every pair of ends the work done is the energy lost.
+    #[test]
+    fn springs_and_stops_give_back_what_they_took() {
+        for a in [-0.9, -0.5, 0.0, 0.49, 0.6, 0.8] {
+            for b in [-0.8, -0.51, 0.1, 0.5, 0.7] {
+                let (torque, _) = LAW.over_step(a, b - a, 0.01);
+                let lost = LAW.energy(a) - LAW.energy(b);
+                assert!((torque * (b - a) - lost).abs() < 1e-14, "{a} {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn slopes_are_derivatives() {
+        let law = JointLaw { damping: 0.7, ..LAW };
+        for a in [-0.9, 0.0, 0.6] {
+            for way in [-1.3, -0.2, 0.01, 0.3, 0.9] {
+                let at = |way| law.over_step(a, way, 0.01).0;
+                let (_, slope) = law.over_step(a, way, 0.01);
+                let differences = (at(way + 1e-6) - at(way - 1e-6)) / 2e-6;
+                assert!((slope - differences).abs() < 1e-5 * slope.abs(), "{a} {way}");
+            }
+        }
+    }
+
+    #[test]
+    fn bad_numbers_are_seen() {
+        assert!(LAW.is_valid());
+        assert!(!JointLaw { damping: -1.0, ..LAW }.is_valid());
+        assert!(!JointLaw { rest: f64::NAN, ..LAW }.is_valid());
+        let crossed = Stops { low: 1.0, high: -1.0, stiffness: 1.0 };
+        assert!(!JointLaw { stops: Some(crossed), ..LAW }.is_valid());
+    }
+}

@@ -1,0 +1,211 @@
+//! Newton's equations of a step, in time linear in its joints: one elimination from the leaves to the root,
+//! and any number of solutions with it.
+//!
+//! It is Algorithm 5.1 with constraints and multipliers out of the way: `M̂` of (5.22) is a 6 × 6 matrix, and
+//! of a joint there is left what moves. The stiffness of a part of the tree, and the impulse on it, are
+//! taken at its joint, freed of the joint's columns one by one, and handed inboard.
+
+use super::node::{Kind, Node, Place};
+use super::stiffness::{Column, Pair, Stiffness};
+use super::step::{End, Touch, Trial};
+use super::turn::skew;
+use nalgebra::{Matrix3, Vector3};
+
+/// The eliminated equations.
+#[derive(Clone, Debug)]
+pub(super) struct Elimination {
+    columns: Vec<Column>,
+    /// Axes and arms that they belong to: beginning and end, by node.
+    geometry: Vec<Geometry>,
+    /// Of a node with all outboard.
+    stiffness: Vec<Stiffness>,
+    impulses: Vec<Pair>,
+    motions: Vec<Pair>,
+    /// By column: what is left of its equation when its turn comes.
+    left: Vec<f64>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Geometry {
+    axes: [[Vector3<f64>; 3]; 2],
+    from_inboard: [Vector3<f64>; 2],
+}
+
+const UNITS: [Vector3<f64>; 3] =
+    [Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 1.0, 0.0), Vector3::new(0.0, 0.0, 1.0)];
+
+impl Elimination {
+    pub fn new(nodes: usize, columns: usize) -> Self {
+        let nothing = [Vector3::zeros(); 3];
+        Self {
+            columns: vec![Column::NONE; columns],
+            geometry: vec![
+                Geometry { axes: [nothing; 2], from_inboard: [Vector3::zeros(); 2] };
+                nodes
+            ],
+            stiffness: vec![Stiffness::ZERO; nodes],
+            impulses: vec![Pair::ZERO; nodes],
+            motions: vec![Pair::ZERO; nodes],
+            left: vec![0.0; columns],
+        }
+    }
+
+    /// Eliminates at a trial that has been evaluated, for steps of `h`.
+    ///
+    /// # Errors
+    /// The node whose joint's equations are singular.
+    pub fn factor(
+        &mut self,
+        nodes: &[Node],
+        places: &[Place],
+        trial: &Trial,
+        h: f64,
+    ) -> Result<(), usize> {
+        self.stiffness.fill(Stiffness::ZERO);
+        for k in (0..nodes.len()).rev() {
+            let (node, place, end) = (&nodes[k], &places[k], &trial.ends[k]);
+            let geometry = Geometry {
+                axes: [place.axes, end.axes],
+                from_inboard: [place.from_inboard, end.from_inboard],
+            };
+            self.geometry[k] = geometry;
+            let part = &mut self.stiffness[k];
+            add_own(part, node, place, end, &trial.touches, h);
+            let first = node.columns.start;
+            let slopes = &trial.own_slopes[node.columns.clone()];
+            let mut keep = |c: usize, column: Option<Column>| match column {
+                Some(column) => {
+                    self.columns[first + c] = column;
+                    Ok(())
+                }
+                None => Err(k),
+            };
+            let [begin, end] = &geometry.axes;
+            match node.kind {
+                Kind::Fixed => {}
+                Kind::Revolute => {
+                    keep(0, part.eliminate_turn(&begin[0], &end[0], -slopes[0]))?;
+                }
+                Kind::Prismatic => {
+                    keep(0, part.eliminate_shift(&begin[0], &end[0], -slopes[0]))?;
+                }
+                Kind::Universal => {
+                    keep(0, part.eliminate_turn(&begin[0], &end[0], 0.0))?;
+                    keep(1, part.eliminate_turn(&begin[1], &end[1], 0.0))?;
+                }
+                Kind::Spherical => {
+                    for i in 0..3 {
+                        keep(i, part.eliminate_turn(&UNITS[i], &end[i], 0.0))?;
+                    }
+                }
+                Kind::Floating => {
+                    for i in 0..3 {
+                        keep(i, part.eliminate_shift(&UNITS[i], &UNITS[i], 0.0))?;
+                    }
+                    for i in 0..3 {
+                        keep(3 + i, part.eliminate_turn(&UNITS[i], &UNITS[i], 0.0))?;
+                    }
+                }
+            }
+            if let Some(inboard) = node.inboard {
+                let part = *part;
+                let [begin, end] = &geometry.from_inboard;
+                self.stiffness[inboard].add_shifted(&part, begin, end);
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves for the motions of all columns that take away these impulses: `impulse` on a body about its
+    /// reference point, and `own` of a column.
+    pub fn solve(
+        &mut self,
+        nodes: &[Node],
+        impulse: impl Fn(usize) -> Pair,
+        own: impl Fn(usize) -> f64,
+        corrections: &mut [f64],
+    ) {
+        self.impulses.fill(Pair::ZERO);
+        for k in (0..nodes.len()).rev() {
+            let node = &nodes[k];
+            let mut z = impulse(k);
+            z.linear += self.impulses[k].linear;
+            z.angular += self.impulses[k].angular;
+            let axes = &self.geometry[k].axes[0];
+            let first = node.columns.start;
+            for c in node.columns.clone() {
+                let along = match (node.kind, c - first) {
+                    (Kind::Prismatic, i) => axes[i].dot(&z.linear),
+                    (Kind::Floating, i @ 0..3) => z.linear[i],
+                    (Kind::Floating, i) => z.angular[i - 3],
+                    (_, i) => axes[i].dot(&z.angular),
+                };
+                let left = along - own(c);
+                self.left[c] = left;
+                let column = &self.columns[c];
+                let share = left * column.inverse;
+                z.linear -= column.impulse.linear * share;
+                z.angular -= column.impulse.angular * share;
+            }
+            if let Some(inboard) = node.inboard {
+                let arm = self.geometry[k].from_inboard[0];
+                self.impulses[inboard].add_shifted(&z, &arm);
+            }
+        }
+        for k in 0..nodes.len() {
+            let node = &nodes[k];
+            let Geometry { axes, from_inboard } = &self.geometry[k];
+            let mut motion = match node.inboard {
+                None => Pair::ZERO,
+                Some(i) => {
+                    let Pair { linear, angular } = self.motions[i];
+                    Pair { linear: linear + angular.cross(&from_inboard[1]), angular }
+                }
+            };
+            let first = node.columns.start;
+            for c in node.columns.clone().rev() {
+                let column = &self.columns[c];
+                let by = -(self.left[c] + column.answer.dot(&motion)) * column.inverse;
+                corrections[c] = by;
+                match (node.kind, c - first) {
+                    (Kind::Prismatic, i) => motion.linear += axes[1][i] * by,
+                    (Kind::Floating, i @ 0..3) => motion.linear[i] += by,
+                    (Kind::Floating, i) => motion.angular[i - 3] += by,
+                    (_, i) => motion.angular += axes[1][i] * by,
+                }
+            }
+            self.motions[k] = motion;
+        }
+    }
+
+    /// Motions of the reference points in the last solution.
+    pub fn motions(&self) -> &[Pair] {
+        &self.motions
+    }
+}
+
+/// A body's own stiffness, and that of the floor under it.
+#[inline]
+fn add_own(
+    part: &mut Stiffness,
+    node: &Node,
+    place: &Place,
+    end: &End,
+    touches: &[Touch],
+    h: f64,
+) {
+    // With the end turned by δφ more: δ(c, v) = ½ (−v·δφ, N δφ), N = c 1 − v̂, so that
+    // ∂L/∂φ = 1/h [(c I − (I v)^ + v̂ I) N − (I v) vᵀ].
+    let (c, v, iv) = (end.turn.c, &end.turn.v, &end.inertia_turn);
+    let v_hat = skew(v);
+    let left = place.inertia * c - skew(iv) + v_hat * place.inertia;
+    let n = Matrix3::from_diagonal_element(c) - v_hat;
+    let turning = (left * n - iv * v.transpose()) / h;
+    part.add_body(node.mass / h, &turning, &place.to_center, &end.to_center);
+    for touch in &touches[node.sites.clone()] {
+        if touch.force.slope != Matrix3::zeros() {
+            let k = touch.force.slope * (-0.5 * h);
+            part.add_point(&k, &(place.to_center + touch.begin), &(end.to_center + touch.end));
+        }
+    }
+}

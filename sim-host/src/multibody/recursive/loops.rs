@@ -1,0 +1,289 @@
+//! Constraints beside the tree, which close its loops: solved by the Schur complement of the tree.
+//!
+//! # Notation
+//! `T(r)` the tree's solution `A δ = −r`; `G⁻, G⁺` the constraints' rows at the step's beginning and end,
+//! `λ` their impulses:
+//! ```text
+//! A δ − G⁻ᵀ δλ = −r,  G⁺ δ = −g   ⇒   δ = T(r) + T(−G⁻ᵀ) δλ,  S δλ = −g − G⁺ T(r),  S = G⁺ T(−G⁻ᵀ)
+//! ```
+//! Cost: one solution of the tree for each constraint, and elimination of a small dense matrix.
+
+use super::super::closure::Closure;
+use super::super::system::{System, WORLD};
+use super::super::{BodyState, Rows};
+use super::elimination::Elimination;
+use super::node::{Node, Place};
+use super::stiffness::Pair;
+use super::step::Trial;
+use nalgebra::Vector3;
+
+/// All closures' constraints, one after the other.
+#[derive(Clone, Debug)]
+pub(super) struct Loops {
+    rows: Vec<Row>,
+    /// `λ`, N·s or N·m·s.
+    pub multipliers: Vec<f64>,
+    pub corrections: Vec<f64>,
+    /// `T(−G⁻ᵀ)`: motions of all columns, by constraint.
+    answers: Vec<f64>,
+    schur: Vec<f64>,
+    /// Pivots in their order, rows and columns; those that are none are left out.
+    pivots: Vec<(usize, usize)>,
+    columns: usize,
+}
+
+/// One constraint: its bodies, its derivative at the beginning and at the end, and its error there.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    bodies: [Option<usize>; 2],
+    begin: [Pair; 2],
+    end: [Pair; 2],
+    error: f64,
+}
+
+/// Pivots that are no more than round-off beside the first: constraints that say what others say already.
+const DEPENDENT: f64 = 1e-9;
+
+impl Loops {
+    pub fn new(system: &System, columns: usize) -> Self {
+        let mut rows = Vec::new();
+        for closure in system.closures() {
+            let bodies = [Some(closure.outboard), closure.inboard];
+            for _ in 0..closure.constraints() {
+                rows.push(Row { bodies, begin: [Pair::ZERO; 2], end: [Pair::ZERO; 2], error: 0.0 });
+            }
+        }
+        let n = rows.len();
+        Self {
+            rows,
+            multipliers: vec![0.0; n],
+            corrections: vec![0.0; n],
+            answers: vec![0.0; n * columns],
+            schur: vec![0.0; n * n],
+            pivots: Vec::with_capacity(n),
+            columns,
+        }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Rows at the beginning of a step.
+    pub fn begin(&mut self, closures: &[Closure], places: &[Place]) {
+        let state = |k: usize| {
+            let place = &places[k];
+            (body_state(&place.center, place.orientation.to_array()), place.to_center)
+        };
+        self.each(closures, state, |row, pairs, _| row.begin = pairs);
+    }
+
+    /// Rows and errors at a trial's end.
+    pub fn end(&mut self, closures: &[Closure], places: &[Place], trial: &Trial) {
+        let state = |k: usize| {
+            let (place, end) = (&places[k], &trial.ends[k]);
+            let of_center = end.to_center - place.to_center;
+            let center = place.center + end.displacement + of_center;
+            let q = end.turn.turned(place.orientation.to_array());
+            (body_state(&center, q), end.to_center)
+        };
+        self.each(closures, state, |row, pairs, error| {
+            row.end = pairs;
+            row.error = error;
+        });
+    }
+
+    /// Fills rows from the closures' derivatives at these states, with the arms from reference points to
+    /// centres of mass.
+    fn each(
+        &mut self,
+        closures: &[Closure],
+        state: impl Fn(usize) -> (BodyState, Vector3<f64>),
+        mut fill: impl FnMut(&mut Row, [Pair; 2], f64),
+    ) {
+        let mut next = 0;
+        for closure in closures {
+            let (x_o, arm_o) = state(closure.outboard);
+            let (x_i, arm_i) = closure.inboard.map_or((WORLD, Vector3::zeros()), &state);
+            let Rows { error, outboard, inboard } = closure.rows(&x_o, &x_i);
+            for c in 0..closure.constraints() {
+                let pairs = [tangent(&outboard[c], &x_o, &arm_o), tangent(&inboard[c], &x_i, &arm_i)];
+                fill(&mut self.rows[next], pairs, error[c]);
+                next += 1;
+            }
+        }
+    }
+
+    /// Impulse of the constraints on a body at the beginning: `G⁻ᵀ λ`.
+    pub fn impulse(&self, k: usize) -> Pair {
+        let mut sum = Pair::ZERO;
+        for (row, multiplier) in self.rows.iter().zip(&self.multipliers) {
+            for (body, pair) in row.bodies.iter().zip(&row.begin) {
+                if *body == Some(k) {
+                    sum.linear += pair.linear * *multiplier;
+                    sum.angular += pair.angular * *multiplier;
+                }
+            }
+        }
+        sum
+    }
+
+    /// The bodies that constraints act on, each once for each constraint, with the impulse there.
+    pub fn impulses(&self) -> impl Iterator<Item = (usize, Pair)> + '_ {
+        self.rows.iter().zip(&self.multipliers).flat_map(|(row, m)| {
+            row.bodies.iter().zip(&row.begin).filter_map(move |(body, pair)| {
+                let scaled = Pair { linear: pair.linear * *m, angular: pair.angular * *m };
+                body.map(|k| (k, scaled))
+            })
+        })
+    }
+
+    /// Largest error of a constraint.
+    pub fn largest_error(&self) -> f64 {
+        self.rows.iter().fold(0.0, |m, row| {
+            let e = row.error.abs();
+            if e > m || e.is_nan() { e } else { m }
+        })
+    }
+
+    /// For velocities: rows of the end are those of the beginning, and errors zero.
+    pub fn stand_still(&mut self) {
+        for row in &mut self.rows {
+            row.end = row.begin;
+            row.error = 0.0;
+        }
+    }
+
+    /// Eliminates `S`, with the tree eliminated.
+    pub fn factor(&mut self, nodes: &[Node], tree: &mut Elimination) {
+        let n = self.rows.len();
+        for j in 0..n {
+            let row = self.rows[j];
+            let unit = |k: usize| {
+                let mut sum = Pair::ZERO;
+                for (body, pair) in row.bodies.iter().zip(&row.begin) {
+                    if *body == Some(k) {
+                        sum.linear -= pair.linear;
+                        sum.angular -= pair.angular;
+                    }
+                }
+                sum
+            };
+            let answer = &mut self.answers[j * self.columns..(j + 1) * self.columns];
+            tree.solve(nodes, unit, |_| 0.0, answer);
+            for i in 0..n {
+                self.schur[i * n + j] = self.rows[i].along(tree.motions());
+            }
+        }
+        self.eliminate();
+    }
+
+    /// Gaussian elimination with complete pivoting, in place.
+    fn eliminate(&mut self) {
+        let n = self.rows.len();
+        self.pivots.clear();
+        let mut first = 0.0;
+        for _ in 0..n {
+            let free_row = |i: &usize| self.pivots.iter().all(|(r, _)| r != i);
+            let free_column = |j: &usize| self.pivots.iter().all(|(_, c)| c != j);
+            let mut best = (0, 0, 0.0_f64);
+            for i in (0..n).filter(free_row) {
+                for j in (0..n).filter(free_column) {
+                    let size = self.schur[i * n + j].abs();
+                    if size > best.2 {
+                        best = (i, j, size);
+                    }
+                }
+            }
+            let (r, c, size) = best;
+            if self.pivots.is_empty() {
+                first = size;
+            }
+            if !(size > DEPENDENT * first) {
+                break;
+            }
+            self.pivots.push((r, c));
+            for i in 0..n {
+                if self.pivots.iter().any(|(row, _)| *row == i) {
+                    continue;
+                }
+                let factor = self.schur[i * n + c] / self.schur[r * n + c];
+                self.schur[i * n + c] = factor;
+                for j in 0..n {
+                    if self.pivots.iter().all(|(_, column)| *column != j) {
+                        self.schur[i * n + j] -= factor * self.schur[r * n + j];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Corrects the tree's solution, the last that was found, so that constraints hold.
+    pub fn correct(&mut self, tree: &Elimination, all: &mut [f64]) {
+        let n = self.rows.len();
+        // −g − G⁺ T(r), eliminated along with S; a constraint that others imply is left out.
+        let mut right = std::mem::take(&mut self.corrections);
+        for (x, row) in right.iter_mut().zip(&self.rows) {
+            *x = -row.error - row.along(tree.motions());
+        }
+        for (at, (r, c)) in self.pivots.iter().enumerate() {
+            let value = right[*r];
+            for (i, x) in right.iter_mut().enumerate() {
+                if self.pivots[..=at].iter().all(|(row, _)| *row != i) {
+                    *x -= self.schur[i * n + c] * value;
+                }
+            }
+        }
+        let mut solution = [0.0; MOST];
+        for (at, (r, c)) in self.pivots.iter().enumerate().rev() {
+            let known: f64 = self.pivots[at + 1..]
+                .iter()
+                .map(|(_, column)| self.schur[r * n + column] * solution[*column])
+                .sum();
+            solution[*c] = (right[*r] - known) / self.schur[r * n + c];
+        }
+        right.copy_from_slice(&solution[..n]);
+        for (answer, by) in self.answers.chunks(self.columns).zip(&right) {
+            for (x, a) in all.iter_mut().zip(answer) {
+                *x += a * by;
+            }
+        }
+        self.corrections = right;
+    }
+}
+
+/// Constraints of all loops, at most.
+pub(super) const MOST: usize = 96;
+
+impl Row {
+    /// `G⁺` along a motion of all bodies.
+    fn along(&self, motions: &[Pair]) -> f64 {
+        self.bodies
+            .iter()
+            .zip(&self.end)
+            .filter_map(|(body, pair)| body.map(|k| pair.dot(&motions[k])))
+            .sum()
+    }
+}
+
+fn body_state(center: &Vector3<f64>, q: [f64; 4]) -> BodyState {
+    [center.x, center.y, center.z, q[0], q[1], q[2], q[3]]
+}
+
+/// A row in seven coordinates as one along place and turn (world axes) about a reference point, from which
+/// `arm` leads to the centre of mass: `q̇ = ½ (0, ω) ⋆ q`.
+fn tangent(row: &BodyState, x: &BodyState, arm: &Vector3<f64>) -> Pair {
+    let linear = Vector3::new(row[0], row[1], row[2]);
+    let [s, a, b, c] = [x[3], x[4], x[5], x[6]];
+    let [g, i, j, k] = [row[3], row[4], row[5], row[6]];
+    let turning = Vector3::new(
+        -a * g + s * i - c * j + b * k,
+        -b * g + c * i + s * j - a * k,
+        -c * g - b * i + a * j + s * k,
+    ) * 0.5;
+    Pair { linear, angular: turning + arm.cross(&linear) }
+}

@@ -1,0 +1,18 @@
+//! The simulator in joint coordinates: the discrete trajectory of [`super::ConstrainedSimulation`], to
+//! round-off, without its constraints and multipliers.
+//!
+//! ```text
+//! Coordinates ─ place ─► Place (a step's beginning) ─┐
+//!      ▲                                             ├─► Trial ─ evaluate ─► residuals
+//!      └ moved ─ Increment ◄─ corrections ◄─ Elimination ◄── stiffness ◄──────┘
+//! ```
+
+mod elimination;
+mod loops;
+mod node;
+mod simulation;
+mod step;
+mod stiffness;
+mod turn;
+
+pub use simulation::Simulation;

@@ -1,0 +1,311 @@
+//! The equations of one step, at a trial of its end.
+//!
+//! # Notation
+//! World axes. For each body, over the step: `(c, v)` its turn as a unit quaternion, `d` the mean velocity
+//! of its centre of mass, `I` its inertia at the beginning, `f` the forces on it.
+//! ```text
+//! p  = m d,   L = 2/h (c I v + v × I v)        momenta of (2.51) and of the midpoint rule, in world axes
+//! w⁻ = (p + ½h m g ẑ − ½h Σ f,  L − ½h Σ ℓ⁻ × f)        impulse on the body at the step's beginning
+//! w⁺ = (p − ½h m g ẑ + ½h Σ f,  L + ½h Σ ℓ⁺ × f)        momentum at its end
+//! r_j = H_j⁻ · Σ outboard w⁻ − π_j − ½h τ_j = 0           (1)
+//! π_j ← H_j⁺ · Σ outboard w⁺ + ½h τ_j                     (2)
+//! ```
+//! (1) is (5.11) multiplied by the joints' columns `H` at the step's beginning, which takes the constraint
+//! forces away; that the constraints hold is in the coordinates. A body that turns freely keeps `L`.
+//!
+//! Forces are taken at the points where they act, half at the step's beginning and half at its end, with
+//! the arms of either: then their moment about any point is that of the mean position.
+
+use super::node::{Increment, Kind, Node, Place};
+use super::stiffness::Pair;
+use super::turn::Turn;
+use crate::contact::{ContactPoint, StepForce};
+use crate::multibody::{JointLaw, System};
+use nalgebra::{Matrix3, Vector3};
+
+/// Where a body is at the trial's end, and the impulse on it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct End {
+    pub turn: Turn,
+    /// Of the reference point.
+    pub displacement: Vector3<f64>,
+    pub to_center: Vector3<f64>,
+    pub from_inboard: Vector3<f64>,
+    pub axes: [Vector3<f64>; 3],
+    /// `d`
+    pub velocity: Vector3<f64>,
+    /// `I v`
+    pub inertia_turn: Vector3<f64>,
+    /// `w⁻` about the reference point: the body's own, then that of all outboard.
+    pub own: Pair,
+    pub all: Pair,
+}
+
+/// A point that can touch the floor.
+#[derive(Clone, Debug)]
+pub(super) struct Touch {
+    /// In the body.
+    pub arm: Vector3<f64>,
+    /// From the centre of mass at the beginning, and at the trial's end.
+    pub begin: Vector3<f64>,
+    pub end: Vector3<f64>,
+    /// Memory before the step.
+    pub memory: ContactPoint,
+    pub force: StepForce,
+}
+
+/// A joint's law and its column.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Law {
+    pub node: usize,
+    pub column: usize,
+    pub law: JointLaw,
+}
+
+/// What is held over a step.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Loads {
+    /// By column, N·m or N.
+    pub torques: Vec<f64>,
+    /// By link: on the centre of mass, world axes.
+    pub wrenches: Vec<Pair>,
+}
+
+/// A trial of a step's end, and what is known of it.
+#[derive(Clone, Debug)]
+pub(super) struct Trial {
+    pub increments: Vec<Increment>,
+    pub ends: Vec<End>,
+    pub touches: Vec<Touch>,
+    pub laws: Vec<Law>,
+    /// By column: `½h τ`, and its derivative.
+    pub own_impulses: Vec<f64>,
+    pub own_slopes: Vec<f64>,
+    /// `r`
+    pub residuals: Vec<f64>,
+}
+
+/// What stays the same over all trials of a step.
+pub(super) struct Step<'a> {
+    pub system: &'a System,
+    pub nodes: &'a [Node],
+    pub places: &'a [Place],
+    pub angles: &'a dyn Fn(usize) -> f64,
+    pub momenta: &'a [f64],
+    pub loads: &'a Loads,
+    pub h: f64,
+}
+
+impl Trial {
+    pub fn new(system: &System, nodes: &[Node], columns: usize) -> Self {
+        let end = End {
+            turn: Turn::NONE,
+            displacement: Vector3::zeros(),
+            to_center: Vector3::zeros(),
+            from_inboard: Vector3::zeros(),
+            axes: [Vector3::zeros(); 3],
+            velocity: Vector3::zeros(),
+            inertia_turn: Vector3::zeros(),
+            own: Pair::ZERO,
+            all: Pair::ZERO,
+        };
+        let touch = |position: [f64; 3]| Touch {
+            arm: position.into(),
+            begin: Vector3::zeros(),
+            end: Vector3::zeros(),
+            memory: ContactPoint::default(),
+            force: StepForce {
+                force: Vector3::zeros(),
+                slope: Matrix3::zeros(),
+                point: ContactPoint::default(),
+            },
+        };
+        Self {
+            increments: vec![Increment::NONE; nodes.len()],
+            ends: vec![end; nodes.len()],
+            touches: system.sites().iter().map(|site| touch(site.position)).collect(),
+            laws: system
+                .laws()
+                .iter()
+                .map(|(node, law)| Law { node: *node, column: nodes[*node].columns.start, law: *law })
+                .collect(),
+            own_impulses: vec![0.0; columns],
+            own_slopes: vec![0.0; columns],
+            residuals: vec![0.0; columns],
+        }
+    }
+
+    /// Positions of the contact sites, where a step begins.
+    pub fn begin(&mut self, nodes: &[Node], places: &[Place]) {
+        for (node, place) in nodes.iter().zip(places) {
+            for touch in &mut self.touches[node.sites.clone()] {
+                touch.begin = place.rotation * touch.arm;
+            }
+        }
+    }
+
+    /// Evaluates (1) at the increments.
+    pub fn evaluate(&mut self, step: &Step) {
+        for k in 0..step.nodes.len() {
+            self.ends[k] = self.end(step, k);
+        }
+        self.own_forces(step);
+        for k in (0..step.nodes.len()).rev() {
+            let (node, place) = (&step.nodes[k], &step.places[k]);
+            let all = self.ends[k].all;
+            let first = node.columns.start;
+            let mut along = |column: usize, impulse: f64| {
+                let c = first + column;
+                self.residuals[c] = impulse - step.momenta[c] - self.own_impulses[c];
+            };
+            project(node, place, &all, &mut along);
+            if let Some(inboard) = node.inboard {
+                self.ends[inboard].all.add_shifted(&all, &place.from_inboard);
+            }
+        }
+    }
+
+    /// Torques on the joints.
+    fn own_forces(&mut self, step: &Step) {
+        let half = 0.5 * step.h;
+        for (impulse, torque) in self.own_impulses.iter_mut().zip(&step.loads.torques) {
+            *impulse = half * torque;
+        }
+        if self.laws.is_empty() {
+            return;
+        }
+        self.own_slopes.fill(0.0);
+        for Law { node, column, law } in &self.laws {
+            let tangent = self.increments[*node].tangents[0];
+            let is_sliding = step.nodes[*node].kind == Kind::Prismatic;
+            let way = if is_sliding { tangent } else { 2.0 * tangent.atan() };
+            let (torque, slope) = law.over_step((step.angles)(*node), way, step.h);
+            self.own_impulses[*column] += half * torque;
+            self.own_slopes[*column] += half * slope;
+        }
+    }
+
+    #[inline]
+    fn end(&mut self, step: &Step, k: usize) -> End {
+        let (node, place, by) = (&step.nodes[k], &step.places[k], &self.increments[k]);
+        let (turn_i, moved_i) = match node.inboard {
+            Some(i) => (self.ends[i].turn, self.ends[i].displacement),
+            None => (Turn::NONE, Vector3::zeros()),
+        };
+        let mut axes = place.axes;
+        let mut displacement = moved_i + turn_i.displacement(&place.from_inboard);
+        let turn = match node.kind {
+            Kind::Fixed => turn_i,
+            Kind::Revolute => {
+                axes[0] = turn_i.rotate(&place.axes[0]);
+                turn_i.after(&Turn::cayley(place.axes[0] * by.tangents[0]))
+            }
+            Kind::Prismatic => {
+                axes[0] = turn_i.rotate(&place.axes[0]);
+                displacement += axes[0] * by.tangents[0];
+                turn_i
+            }
+            Kind::Universal => {
+                let turn = turn_i
+                    .after(&Turn::cayley(place.axes[0] * by.tangents[0]))
+                    .after(&Turn::cayley(place.axes[1] * by.tangents[1]));
+                axes[0] = turn_i.rotate(&place.axes[0]);
+                axes[1] = turn.rotate(&place.axes[1]);
+                turn
+            }
+            Kind::Spherical => {
+                axes = axes.map(|axis| turn_i.rotate(&axis));
+                turn_i.after(&by.turn)
+            }
+            Kind::Floating => {
+                displacement = by.position;
+                by.turn
+            }
+        };
+        let from_inboard = place.from_inboard + displacement - moved_i;
+        let of_center = turn.displacement(&place.to_center);
+        let h = step.h;
+        let velocity = (displacement + of_center) / h;
+        let inertia_turn = place.inertia * turn.v;
+        let spin = (inertia_turn * turn.c + turn.v.cross(&inertia_turn)) * (2.0 / h);
+        let load = &step.loads.wrenches[k];
+        let mut linear = velocity * node.mass - load.linear * (0.5 * h);
+        linear.z += 0.5 * h * node.mass * step.system.gravity();
+        let mut angular = spin - load.angular * (0.5 * h);
+        if let Some((floor, switching)) = step.system.ground() {
+            for touch in &mut self.touches[node.sites.clone()] {
+                let way = turn.displacement(&touch.begin);
+                touch.end = touch.begin + way;
+                let p = place.center + touch.begin;
+                let p_end = p + displacement + of_center + way;
+                touch.force = touch.memory.over_step(floor, *switching, p, p_end, h);
+                let half = touch.force.force * (0.5 * h);
+                linear -= half;
+                angular -= touch.begin.cross(&half);
+            }
+        }
+        let own = Pair { linear, angular: angular + place.to_center.cross(&linear) };
+        let to_center = place.to_center + of_center;
+        let (from_inboard, own) = (from_inboard, own);
+        End {
+            turn,
+            displacement,
+            to_center,
+            from_inboard,
+            axes,
+            velocity,
+            inertia_turn,
+            own,
+            all: own,
+        }
+    }
+
+    /// Momenta at the end, about the reference points there, for every body alone: `w⁺`. The arms are those
+    /// of the places that the step leads to.
+    pub fn end_momentum(&self, step: &Step, k: usize, to: &Place) -> Pair {
+        let (node, end, half) = (&step.nodes[k], &self.ends[k], 0.5 * step.h);
+        let load = &step.loads.wrenches[k];
+        let mut linear = end.velocity * node.mass + load.linear * half;
+        linear.z -= half * node.mass * step.system.gravity();
+        let turn = &end.turn;
+        let mut angular = (end.inertia_turn * turn.c + turn.v.cross(&end.inertia_turn))
+            * (2.0 / step.h)
+            + load.angular * half;
+        for touch in &self.touches[node.sites.clone()] {
+            let impulse = touch.force.force * half;
+            linear += impulse;
+            angular += touch.end.cross(&impulse);
+        }
+        Pair { linear, angular: angular + to.to_center.cross(&linear) }
+    }
+}
+
+/// A force and its moment about the reference point, along a joint's columns.
+#[inline]
+pub(super) fn project(
+    node: &Node,
+    place: &Place,
+    all: &Pair,
+    along: &mut impl FnMut(usize, f64),
+) {
+    match node.kind {
+        Kind::Fixed => {}
+        Kind::Revolute => along(0, place.axes[0].dot(&all.angular)),
+        Kind::Prismatic => along(0, place.axes[0].dot(&all.linear)),
+        Kind::Universal => {
+            along(0, place.axes[0].dot(&all.angular));
+            along(1, place.axes[1].dot(&all.angular));
+        }
+        Kind::Spherical => {
+            for i in 0..3 {
+                along(i, all.angular[i]);
+            }
+        }
+        Kind::Floating => {
+            for i in 0..3 {
+                along(i, all.linear[i]);
+                along(3 + i, all.angular[i]);
+            }
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! How the impulse on a tree's part answers to the motion of its end: a 6 × 6 matrix in four blocks, about
+//! one point.
+
+use super::turn::skew;
+use nalgebra::{Matrix3, Vector3};
+
+/// Change of impulse and moment of impulse for a change of place and of orientation at the step's end.
+/// The arm of the moment is that of the beginning, the arm of the motion that of the end, so that the
+/// matrix is not symmetric; for steps of no length it is the articulated-body inertia.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stiffness {
+    pub force_by_place: Matrix3<f64>,
+    pub force_by_turn: Matrix3<f64>,
+    pub moment_by_place: Matrix3<f64>,
+    pub moment_by_turn: Matrix3<f64>,
+}
+
+/// Force and moment; or place and turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pair {
+    pub linear: Vector3<f64>,
+    pub angular: Vector3<f64>,
+}
+
+impl Pair {
+    pub const ZERO: Self =
+        Self { linear: Vector3::new(0.0, 0.0, 0.0), angular: Vector3::new(0.0, 0.0, 0.0) };
+
+    #[inline]
+    pub fn dot(&self, other: &Self) -> f64 {
+        self.linear.dot(&other.linear) + self.angular.dot(&other.angular)
+    }
+
+    /// A force taken at another point, `arm` away from the one where it acts.
+    #[inline]
+    pub fn add_shifted(&mut self, force: &Self, arm: &Vector3<f64>) {
+        self.linear += force.linear;
+        self.angular += force.angular + arm.cross(&force.linear);
+    }
+}
+
+/// What the elimination of one column keeps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Column {
+    /// Impulse for a unit of its motion.
+    pub impulse: Pair,
+    /// Its own impulse for motions of what is inboard.
+    pub answer: Pair,
+    /// Its motion for a unit of its own impulse.
+    pub inverse: f64,
+}
+
+impl Column {
+    pub const NONE: Self = Self { impulse: Pair::ZERO, answer: Pair::ZERO, inverse: 0.0 };
+}
+
+impl Stiffness {
+    pub const ZERO: Self = {
+        let zero = Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+        Self { force_by_place: zero, force_by_turn: zero, moment_by_place: zero, moment_by_turn: zero }
+    };
+
+    /// A body's own about its reference point: mass over the step, and `turning` about the centre of
+    /// mass, from which the arms lead.
+    #[inline]
+    pub fn add_body(
+        &mut self,
+        mass: f64,
+        turning: &Matrix3<f64>,
+        begin: &Vector3<f64>,
+        end: &Vector3<f64>,
+    ) {
+        for i in 0..3 {
+            self.force_by_place[(i, i)] += mass;
+        }
+        self.force_by_turn -= skew(end) * mass;
+        self.moment_by_place += skew(begin) * mass;
+        // −m b̂ ê = m ((b·e) 1 − e bᵀ)
+        let along = mass * begin.dot(end);
+        self.moment_by_turn += turning - (end * mass) * begin.transpose();
+        for i in 0..3 {
+            self.moment_by_turn[(i, i)] += along;
+        }
+    }
+
+    /// A point's own, at the end of these arms.
+    #[inline]
+    pub fn add_point(&mut self, k: &Matrix3<f64>, begin: &Vector3<f64>, end: &Vector3<f64>) {
+        let by_turn = k * skew(end);
+        self.force_by_place += k;
+        self.force_by_turn -= by_turn;
+        let b = skew(begin);
+        self.moment_by_place += b * k;
+        self.moment_by_turn -= b * by_turn;
+    }
+
+    /// Another part's, whose point lies at the end of these arms.
+    #[inline]
+    pub fn add_shifted(&mut self, part: &Self, begin: &Vector3<f64>, end: &Vector3<f64>) {
+        let by_turn = part.force_by_turn - times_skew(&part.force_by_place, end);
+        let moment_by_turn = part.moment_by_turn - times_skew(&part.moment_by_place, end);
+        self.moment_by_place += part.moment_by_place + skew_times(begin, &part.force_by_place);
+        self.moment_by_turn += moment_by_turn + skew_times(begin, &by_turn);
+        self.force_by_place += part.force_by_place;
+        self.force_by_turn += by_turn;
+    }
+
+    /// Eliminates a rotation about the point: `begin` and `end` are its axis, `own` the slope of its own
+    /// law.
+    #[inline]
+    pub fn eliminate_turn(
+        &mut self,
+        begin: &Vector3<f64>,
+        end: &Vector3<f64>,
+        own: f64,
+    ) -> Option<Column> {
+        let impulse =
+            Pair { linear: self.force_by_turn * end, angular: self.moment_by_turn * end };
+        let answer = Pair {
+            linear: self.moment_by_place.tr_mul(begin),
+            angular: self.moment_by_turn.tr_mul(begin),
+        };
+        let pivot = begin.dot(&impulse.angular) + own;
+        self.eliminate(impulse, answer, pivot)
+    }
+
+    /// Eliminates a translation.
+    #[inline]
+    pub fn eliminate_shift(
+        &mut self,
+        begin: &Vector3<f64>,
+        end: &Vector3<f64>,
+        own: f64,
+    ) -> Option<Column> {
+        let impulse =
+            Pair { linear: self.force_by_place * end, angular: self.moment_by_place * end };
+        let answer = Pair {
+            linear: self.force_by_place.tr_mul(begin),
+            angular: self.force_by_turn.tr_mul(begin),
+        };
+        let pivot = begin.dot(&impulse.linear) + own;
+        self.eliminate(impulse, answer, pivot)
+    }
+
+    /// None where the pivot is no number, or none to divide by.
+    #[inline]
+    fn eliminate(&mut self, impulse: Pair, answer: Pair, pivot: f64) -> Option<Column> {
+        let inverse = 1.0 / pivot;
+        let by = Pair { linear: answer.linear * inverse, angular: answer.angular * inverse };
+        subtract_outer(&mut self.force_by_place, &impulse.linear, &by.linear);
+        subtract_outer(&mut self.force_by_turn, &impulse.linear, &by.angular);
+        subtract_outer(&mut self.moment_by_place, &impulse.angular, &by.linear);
+        subtract_outer(&mut self.moment_by_turn, &impulse.angular, &by.angular);
+        inverse.is_finite().then_some(Column { impulse, answer, inverse })
+    }
+}
+
+/// `m −= a bᵀ`
+#[inline]
+fn subtract_outer(m: &mut Matrix3<f64>, a: &Vector3<f64>, b: &Vector3<f64>) {
+    for j in 0..3 {
+        for i in 0..3 {
+            m[(i, j)] -= a[i] * b[j];
+        }
+    }
+}
+
+/// `m r̂`: its rows are those of `m`, each × `r`.
+#[inline]
+fn times_skew(m: &Matrix3<f64>, r: &Vector3<f64>) -> Matrix3<f64> {
+    let [x, y, z] = [m.column(0), m.column(1), m.column(2)];
+    Matrix3::from_columns(&[y * r.z - z * r.y, z * r.x - x * r.z, x * r.y - y * r.x])
+}
+
+/// `r̂ m`: its columns are `r ×` those of `m`.
+#[inline]
+fn skew_times(r: &Vector3<f64>, m: &Matrix3<f64>) -> Matrix3<f64> {
+    let column = |j: usize| r.cross(&m.column(j).into_owned());
+    Matrix3::from_columns(&[column(0), column(1), column(2)])
+}
