@@ -14,7 +14,10 @@ use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
 use surefoot_sim::integrators::{Method, start_natural};
 use surefoot_sim::mechanics::systems::DoubleSphericalPendulum;
-use surefoot_sim::multibody::{Chain, ChainJoint, ConstrainedSimulation, Simulation};
+use surefoot_sim::contact::{Floor, Switching};
+use surefoot_sim::multibody::{
+    Chain, ChainJoint, ConstrainedSimulation, JointLaw, Simulation, Site, states_of_tree, system_of_tree,
+};
 
 /// One call of an algorithm, joint poses included.
 pub struct Workload {
@@ -165,6 +168,48 @@ fn on_rods(links: usize) -> [Workload; 2] {
     ]
 }
 
+/// Steps of the biped in flight and on both feet, by the multibody simulator.
+fn on_multibody_biped() -> [Workload; 2] {
+    let positions = biped_positions();
+    let mut standing: [f64; 19] = [0.0; 19];
+    standing[2] = 1.03;
+    standing[3] = 1.0;
+    for leg in [7, 13] {
+        standing[leg + 1] = 40.0_f64.to_radians();
+        standing[leg + 3] = -77.4595_f64.to_radians();
+        standing[leg + 5] = (77.4595_f64 - 40.0).to_radians();
+    }
+    let still = [0.0; 18];
+    let system = || system_of_tree(&TREE).expect("a system");
+    let (states, rates) = states_of_tree(&TREE, &positions, &wave(0.4)).expect("states");
+    let flight = Simulation::new(system(), 1e-3, &states, &rates).expect("a start");
+    let corners = biped::SoleOutline::A.corners();
+    let sites = biped::FEET.into_iter().flat_map(|foot| {
+        corners.map(|corner| Site { link: foot, position: corner.into() })
+    });
+    let mut on_floor = system()
+        .on_floor(Floor::RUBBER, Switching::default(), sites.collect())
+        .expect("sites");
+    for k in 1..13 {
+        // Stiff enough to stand.
+        let law =
+            JointLaw { stiffness: 3000.0, rest: standing[6 + k], damping: 100.0, stops: None };
+        on_floor = on_floor.with_law(k, law).expect("a law");
+    }
+    let (states, rates) = states_of_tree(&TREE, &standing, &still).expect("states");
+    let mut on_feet = Simulation::new(on_floor, 1e-3, &states, &rates).expect("a start");
+    for _ in 0..500 {
+        on_feet.step().expect("a step");
+    }
+    [("flight", flight), ("feet", on_feet)].map(|(name, start)| {
+        let simulation = RefCell::new(start);
+        Workload {
+            name: format!("multibody-step/biped-{name}/f64"),
+            call: Box::new(move || simulation.borrow_mut().step().expect("a step")),
+        }
+    })
+}
+
 /// Steps of both methods of table 2.2 at its middle step.
 fn on_double_pendulum() -> [Workload; 2] {
     let pendulum = DoubleSphericalPendulum::PRINTED;
@@ -190,6 +235,7 @@ pub fn workloads() -> Vec<Workload> {
     all.extend(on_chain::<100>());
     all.extend(on_chain::<200>());
     all.extend([25, 100, 400, 1000].into_iter().flat_map(on_rods));
+    all.extend(on_multibody_biped());
     all.extend(on_double_pendulum());
     all
 }

@@ -6,6 +6,7 @@
 //! the algorithms need, so that they lie in flash, and that refuses an ill-formed tree at compile
 //! time.
 
+mod body_shape;
 mod compile_time;
 mod general_joint;
 mod joint;
@@ -16,6 +17,7 @@ mod single_precision;
 mod tree;
 
 pub(crate) use compile_time::square_root;
+pub use body_shape::BodyShape;
 pub use general_joint::{GeneralJoint, GeneralMotion};
 pub use joint::{Axis, JointKind};
 pub use link::Link;

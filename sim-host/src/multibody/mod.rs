@@ -12,6 +12,7 @@ mod constrained;
 mod joint;
 mod joint_law;
 mod recursive;
+mod robot;
 mod system;
 
 pub use body::{Body, BodyState};
@@ -21,4 +22,5 @@ pub use constrained::{ConstrainedSimulation, Correction, Equations, SingularJoin
 pub use joint::{Joint, JointConstraint, MOST_CONSTRAINTS, Rows};
 pub use joint_law::{JointLaw, Stops};
 pub use recursive::Simulation;
+pub use robot::{states_of_tree, system_of_tree};
 pub use system::{Link, Site, System, SystemError};

@@ -123,6 +123,14 @@ pub enum SystemError {
         /// How many there may be.
         most: usize,
     },
+    /// Something that the simulator has no model of.
+    #[error("link {link}: {what} is needed")]
+    Unsupported {
+        /// Which one.
+        link: usize,
+        /// What it would take.
+        what: &'static str,
+    },
     /// The step is no time.
     #[error("a step of {h} s: a positive number is needed")]
     Step {

@@ -82,6 +82,17 @@ pub(super) struct Increment {
 impl Increment {
     pub const NONE: Self =
         Self { tangents: [0.0; 2], position: Vector3::new(0.0, 0.0, 0.0), turn: Turn::NONE };
+
+    /// The next one, if it changes as it did from the one before.
+    pub fn beyond(&self, before: &Self) -> Self {
+        let v = self.turn.v * 2.0 - before.turn.v;
+        Self {
+            tangents: std::array::from_fn(|i| 2.0 * self.tangents[i] - before.tangents[i]),
+            position: self.position * 2.0 - before.position,
+            // Beyond half a turn there is no such; the step will fail in any case.
+            turn: Turn { c: (1.0 - v.norm_squared()).max(0.0).sqrt(), v },
+        }
+    }
 }
 
 /// Where a body is at a step's beginning, in world axes.

@@ -22,7 +22,7 @@ pub struct Simulation {
     /// Newton's method begins the next.
     coordinates: Vec<Coordinates>,
     momenta: Vec<f64>,
-    last: Vec<Increment>,
+    last: [Vec<Increment>; 2],
     places: Vec<Place>,
     loads: Loads,
     /// What a unit of speed is in a column's momentum.
@@ -85,7 +85,7 @@ impl Simulation {
             weights: weights(&system, &nodes, columns),
             coordinates,
             momenta: vec![0.0; columns],
-            last: vec![Increment::NONE; nodes.len()],
+            last: [(); 2].map(|()| vec![Increment::NONE; nodes.len()]),
             places: vec![Place::world(); nodes.len()],
             loads: Loads { torques: vec![0.0; columns], wrenches: vec![Pair::ZERO; nodes.len()] },
             fastest: system.gravity().abs() * h,
@@ -264,7 +264,10 @@ impl Simulation {
     /// # Cost
     /// Linear in the number of links for each Newton iteration; no allocation.
     pub fn step(&mut self) -> Result<(), StepError> {
-        self.trial.increments.copy_from_slice(&self.last);
+        let [last, before] = &self.last;
+        for (k, guess) in self.trial.increments.iter_mut().enumerate() {
+            *guess = last[k].beyond(&before[k]);
+        }
         self.trial.begin(&self.nodes, &self.places);
         if !self.loops.is_empty() {
             self.loops.begin(self.system.closures(), &self.places);
@@ -422,7 +425,8 @@ impl Simulation {
             self.coordinates[k] =
                 node.moved(&self.coordinates[k], &self.trial.increments[k], inboard);
         }
-        self.last.copy_from_slice(&self.trial.increments);
+        self.last.swap(0, 1);
+        self.last[0].copy_from_slice(&self.trial.increments);
         self.find_places();
         let coordinates = &self.coordinates;
         let step = Step {
@@ -493,7 +497,8 @@ impl Simulation {
         if self.column_rates().is_ok() {
             for (k, node) in self.nodes.iter().enumerate() {
                 let by = &self.corrections[node.columns.clone()];
-                self.last[k] = node.corrected(&Increment::NONE, by, h);
+                self.last[0][k] = node.corrected(&Increment::NONE, by, h);
+                self.last[1][k] = self.last[0][k];
             }
         }
     }
