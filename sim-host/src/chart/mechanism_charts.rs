@@ -21,6 +21,10 @@ pub fn write_mechanism_chart(
             (["q scalar", "q x", "q y", "q z"].map(str::to_owned).to_vec(), "unit quaternion")
         }
         Mechanism::Pendulum { links, .. } => (last_three(3, links.len()), "last mass (m)"),
+        Mechanism::Multibody(all) => {
+            (last_three(7, all.bodies.len()), "last body's centre of mass (m)")
+        }
+        Mechanism::Biped(_) => (["x", "y", "z"].map(str::to_owned).to_vec(), "central body (m)"),
         Mechanism::Chain { links, .. } => (last_three(7, *links), "last rod's centre of mass (m)"),
     };
     let curve = |name: &str, value: &dyn Fn(&MechanismSample) -> f64| {

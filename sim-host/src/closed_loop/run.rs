@@ -2,7 +2,8 @@
 
 use super::events::Watch;
 use super::{Commanded, Controller, Costs, Failure, Outcome};
-use crate::plant::{OnFloor, Plant, StepFailure, Welded};
+use crate::integrators::{Method, Progress};
+use crate::plant::{OnFloor, Plant, PlantState, StepFailure, Variational, Welded};
 use crate::record::{Event, Sample};
 use crate::scene::{Feet, Scene, TorquesFrom};
 use nalgebra::Vector3;
@@ -26,6 +27,8 @@ pub struct Run {
     pub constraint_max: f64,
     /// Time spent computing.
     pub wall: Duration,
+    /// What the solver of implicit steps has done, if the plant has one.
+    pub progress: Option<Progress>,
     /// What the controller's ticks have cost, where it ran on a target.
     pub costs: Option<Costs>,
 }
@@ -45,11 +48,16 @@ pub fn run(scene: &Scene, controller: &mut dyn Controller, progress: &mut dyn Fn
         steps: 0,
         constraint_max: 0.0,
         wall: Duration::ZERO,
+        progress: None,
         costs: None,
     };
     let result = match plant(scene) {
-        Ok(mut plant) => advance(scene, plant.as_mut(), controller, progress, &mut run)
-            .map_err(|failure| with_step_limit(failure, scene, plant.as_ref())),
+        Ok(mut plant) => {
+            let result = advance(scene, plant.as_mut(), controller, progress, &mut run)
+                .map_err(|failure| with_step_limit(failure, scene, plant.as_ref()));
+            run.progress = plant.progress().copied();
+            result
+        }
         Err(failure) => Err(step_failure(0.0, failure)),
     };
     if let Err(failure) = result {
@@ -66,8 +74,13 @@ pub fn run(scene: &Scene, controller: &mut dyn Controller, progress: &mut dyn Fn
 
 /// The smallest plant that plays the scene: no contact code where feet are welded.
 fn plant(scene: &Scene) -> Result<Box<dyn Plant>, StepFailure> {
-    let start = scene.initial.state();
+    let (start, step) = (scene.initial.state(), scene.integrator.step_s);
+    let is_variational = scene.integrator.name == Method::Variational;
     Ok(match &scene.feet {
+        Feet::Floor { outline, floor } if is_variational => {
+            Box::new(Variational::on_floor(&start, step, *floor, &outline.sole())?)
+        }
+        Feet::Welded {} if is_variational => Box::new(Variational::welded(&start, step)?),
         Feet::Floor { outline, floor } => Box::new(OnFloor::new(start, *floor, &outline.sole())),
         Feet::Welded {} => Box::new(Welded::new(start)?),
     })
@@ -89,9 +102,10 @@ fn advance(
     for tick in 0..=ticks {
         let time = (tick * steps_per_tick) as f64 * step;
         touched |= watch.touched();
-        let command = command(scene, plant, controller, touched, time)?;
-        sample(plant, &command, time, run)?;
-        fallen(plant, time)?;
+        let state = plant.state().map_err(|failure| step_failure(time, failure))?;
+        let command = command(scene, &state, controller, touched, time)?;
+        sample(plant, &state, &command, time, run)?;
+        fallen(&state, time)?;
         if tick % 25 == 0 {
             progress(time);
         }
@@ -115,20 +129,20 @@ fn advance(
 /// The torques of this tick; zero before the first touch-down, if the scene says so.
 fn command(
     scene: &Scene,
-    plant: &dyn Plant,
+    state: &PlantState,
     controller: &mut dyn Controller,
     active: bool,
     time: f64,
 ) -> Result<Commanded, Failure> {
     if active {
-        return controller.tick(plant.state()).map_err(|failure| Failure {
+        return controller.tick(state).map_err(|failure| Failure {
             kind: failure.kind(),
             time_s: time,
             place: failure.to_string(),
             advice: failure.advice().into(),
         });
     }
-    let p = &plant.state().positions;
+    let p = &state.positions;
     let q = Quaternion::from_array([p[3], p[4], p[5], p[6]]);
     let desired = Quaternion::from_array(scene.set_point.orientation);
     let error = surefoot::spatial::orientation_error(q, desired);
@@ -142,12 +156,12 @@ fn command(
 }
 
 fn sample(
-    plant: &dyn Plant,
+    plant: &mut dyn Plant,
+    state: &PlantState,
     command: &Commanded,
     time_s: f64,
     run: &mut Run,
 ) -> Result<(), Failure> {
-    let state = plant.state();
     let seen = plant.observe().map_err(|failure| step_failure(time_s, failure))?;
     run.constraint_max = run.constraint_max.max(seen.constraint);
     run.samples.push(Sample {
@@ -165,8 +179,8 @@ fn sample(
     Ok(())
 }
 
-fn fallen(plant: &dyn Plant, time: f64) -> Result<(), Failure> {
-    let p = &plant.state().positions;
+fn fallen(state: &PlantState, time: f64) -> Result<(), Failure> {
+    let p = &state.positions;
     let up = Quaternion::from_array([p[3], p[4], p[5], p[6]]).rotate(Vector3::z()).z;
     let what = if p[2] < FALLEN_HEIGHT {
         format!("the central body is at {:.2} m, below {FALLEN_HEIGHT} m", p[2])
@@ -199,7 +213,8 @@ fn step_failure(time_s: f64, failure: StepFailure) -> Failure {
     let advice = match failure {
         StepFailure::Diverged { .. } => "a smaller step, or a softer floor",
         StepFailure::SingularConstraints => "bend the knees",
-        StepFailure::Dynamics(_) => "check the initial state",
+        StepFailure::Step(_) => "a smaller step",
+        StepFailure::Dynamics(_) | StepFailure::System(_) => "check the initial state",
     };
     Failure { kind: "step", time_s, place: failure.to_string(), advice: advice.into() }
 }

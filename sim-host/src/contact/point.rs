@@ -10,9 +10,10 @@
 
 use super::{Conditions, ContactState, Floor};
 use nalgebra::{Vector2, Vector3};
+use serde::{Deserialize, Serialize};
 
 /// A contact point's memory: its state, and where it sticks.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ContactPoint {
     /// State at the end of the last evaluation.
     pub state: ContactState,

@@ -1,9 +1,9 @@
 //! The six-state machine of figure 5.1, as one table.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// State of a contact point. States 1, 2 and 4 last; 3, 5 and 6 are left before the next step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ContactState {
     /// 1: above the floor.

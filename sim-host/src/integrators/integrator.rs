@@ -3,6 +3,7 @@
 use super::{StepError, StepFailure};
 use crate::mechanics::Scalar;
 use crate::newton::Root;
+use serde::{Deserialize, Serialize};
 
 /// A motion under one method. In numbers that carry derivatives it carries those of its start along:
 /// the method's tangent map, exactly.
@@ -27,7 +28,7 @@ pub trait Integrator<const N: usize, D: Scalar = f64> {
 }
 
 /// How far a motion is, and what it took.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Progress {
     /// Step, s.
     pub h: f64,
@@ -41,12 +42,14 @@ pub struct Progress {
     pub most_iterations: u32,
     /// Largest residual left, relative to its terms.
     pub residual: f64,
+    /// Steps that had to be made in shorter ones.
+    pub split_steps: u64,
 }
 
 impl Progress {
     /// At the start.
     pub fn new(h: f64) -> Self {
-        Self { h, time_s: 0.0, steps: 0, iterations: 0, most_iterations: 0, residual: 0.0 }
+        Self { h, time_s: 0.0, steps: 0, iterations: 0, most_iterations: 0, residual: 0.0, split_steps: 0 }
     }
 
     /// Newton iterations a step, on average.

@@ -3,8 +3,10 @@
 use crate::integrators::{Motion, Progress, StartError, StepError, start_free_body, start_natural};
 use crate::mechanics::systems::{FreeRigidBody, Pendulum, PolarAngles};
 use crate::mechanics::{Chart, Lagrangian, jacobian};
-use crate::multibody::{Chain, Simulation, SystemError};
-use crate::scene::{Link, Mechanism, MechanismScene};
+use crate::contact::ContactPoint;
+use crate::multibody::{Chain, Checkpoint, Simulation, SystemError};
+use crate::plant::StepFailure;
+use crate::scene::{BuildError, Link, Mechanism, MechanismScene};
 use crate::stability::{Rates, forecast};
 use num_dual::Dual64;
 
@@ -36,6 +38,24 @@ pub trait Moving {
 
     /// Coordinates and constraints.
     fn unknowns(&self) -> usize;
+
+    /// Points that can touch the floor.
+    fn contacts(&self) -> &[ContactPoint] {
+        &[]
+    }
+
+    /// All that is needed to go on from here, for motions that can be taken up again.
+    fn checkpoint(&self) -> Option<&Checkpoint> {
+        None
+    }
+
+    /// Goes on from a checkpoint.
+    ///
+    /// # Errors
+    /// Where the checkpoint is of another motion, or the motion cannot be taken up again.
+    fn restore(&mut self, _: &Checkpoint) -> Result<(), SystemError> {
+        Err(SystemError::OtherCheckpoint)
+    }
 }
 
 /// A motion of `S`, with its angular momentum.
@@ -91,6 +111,8 @@ impl Moving for Simulation {
         let energy = self.energies().map(|(kinetic, potential)| kinetic + potential)?;
         let system = self.system();
         let is_free = system.gravity() == 0.0
+            && system.ground().is_none()
+            && system.closures().iter().all(|closure| closure.inboard.is_some())
             && system.links().iter().all(|l| l.inboard.is_some() || l.joint.constraints() == 0);
         let momentum =
             if is_free { system.momentum(&states, &rates).1.to_vec() } else { Vec::new() };
@@ -108,10 +130,22 @@ impl Moving for Simulation {
     fn unknowns(&self) -> usize {
         Self::unknowns(self)
     }
+
+    fn contacts(&self) -> &[ContactPoint] {
+        Self::contacts(self)
+    }
+
+    fn checkpoint(&self) -> Option<&Checkpoint> {
+        Some(Self::checkpoint(self))
+    }
+
+    fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SystemError> {
+        Self::restore(self, checkpoint)
+    }
 }
 
 /// Why a scene cannot be started.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StartFailure {
     /// The method refuses it.
     #[error(transparent)]
@@ -119,6 +153,12 @@ pub enum StartFailure {
     /// It is no system.
     #[error(transparent)]
     System(#[from] SystemError),
+    /// Its bodies and joints are none.
+    #[error(transparent)]
+    Bodies(#[from] BuildError),
+    /// It is no state of the robot.
+    #[error(transparent)]
+    Robot(#[from] StepFailure),
 }
 
 /// Starts a scene.
@@ -143,6 +183,8 @@ pub fn start(scene: &MechanismScene) -> Result<Box<dyn Moving>, StartFailure> {
                 forecast_s: forecast(method, &rates),
             }))
         }
+        Mechanism::Multibody(bodies) => Ok(Box::new(bodies.start(scene.integrator.step_s)?)),
+        Mechanism::Biped(flight) => Ok(Box::new(flight.start(scene.integrator.step_s)?)),
         Mechanism::Chain {
             links,
             mass_kg,

@@ -131,6 +131,9 @@ pub enum SystemError {
         /// What it would take.
         what: &'static str,
     },
+    /// A checkpoint of another system, or of another step.
+    #[error("the checkpoint belongs to another system, or to another step")]
+    OtherCheckpoint,
     /// The step is no time.
     #[error("a step of {h} s: a positive number is needed")]
     Step {

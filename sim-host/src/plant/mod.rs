@@ -3,13 +3,17 @@
 mod configuration;
 mod energies;
 mod on_floor;
+mod variational;
 mod welded;
 
 pub use configuration::retract;
 pub use on_floor::OnFloor;
+pub use variational::Variational;
 pub use welded::Welded;
 
 use crate::contact::ContactState;
+use crate::integrators::{Progress, StepError};
+use crate::multibody::SystemError;
 use nalgebra::Vector3;
 use surefoot::dynamics::DynamicsFault;
 
@@ -49,6 +53,12 @@ pub enum StepFailure {
     /// The equations of motion have no solution here.
     #[error("{0}")]
     Dynamics(#[from] DynamicsFault),
+    /// A variational step's equations have not been solved.
+    #[error("{0}")]
+    Step(#[from] StepError),
+    /// The robot is no system of the multibody simulator, or the state no start of it.
+    #[error("{0}")]
+    System(#[from] SystemError),
     /// The constraints of welded feet are dependent: some leg is singular.
     #[error("the constraints of the welded feet are dependent (a straight leg)")]
     SingularConstraints,
@@ -69,7 +79,10 @@ const DIVERGED: f64 = 1e4;
 /// A biped that moves under joint torques.
 pub trait Plant {
     /// The present state.
-    fn state(&self) -> &PlantState;
+    ///
+    /// # Errors
+    /// A [`StepFailure`] where momenta belong to no velocities.
+    fn state(&mut self) -> Result<PlantState, StepFailure>;
 
     /// Advances by one step of `step_s` seconds under torques (N·m, left leg then right, hip to
     /// foot), and a force on the central body's centre of mass (N, world frame), if there is one.
@@ -90,11 +103,16 @@ pub trait Plant {
     ///
     /// # Errors
     /// A [`StepFailure`] for a state that no step has made, and that is no configuration.
-    fn observe(&self) -> Result<Observation, StepFailure>;
+    fn observe(&mut self) -> Result<Observation, StepFailure>;
 
     /// Largest step for which the plant is stable, as far as it can be told beforehand, s; `None`
     /// where nothing limits it but accuracy.
     fn step_limit(&self) -> Option<f64>;
+
+    /// What the solver of implicit steps has done; `None` for plants without one.
+    fn progress(&self) -> Option<&Progress> {
+        None
+    }
 }
 
 /// Wrench array of the tree's velocities: torques on the joints, none on the central body.

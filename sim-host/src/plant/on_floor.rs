@@ -69,8 +69,8 @@ impl OnFloor {
 }
 
 impl Plant for OnFloor {
-    fn state(&self) -> &PlantState {
-        &self.state
+    fn state(&mut self) -> Result<PlantState, StepFailure> {
+        Ok(self.state)
     }
 
     fn step(
@@ -107,7 +107,7 @@ impl Plant for OnFloor {
         Some(self.points.map(|foot| foot.map(|point| point.state)))
     }
 
-    fn observe(&self) -> Result<Observation, StepFailure> {
+    fn observe(&mut self) -> Result<Observation, StepFailure> {
         let PlantState { positions, velocities } = &self.state;
         let relative = joint_poses(&TREE, positions)?;
         let poses = body_poses(&TREE, &relative);

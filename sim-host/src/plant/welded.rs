@@ -45,8 +45,8 @@ impl Welded {
 }
 
 impl Plant for Welded {
-    fn state(&self) -> &PlantState {
-        &self.state
+    fn state(&mut self) -> Result<PlantState, StepFailure> {
+        Ok(self.state)
     }
 
     fn step(
@@ -101,7 +101,7 @@ impl Plant for Welded {
         None
     }
 
-    fn observe(&self) -> Result<Observation, StepFailure> {
+    fn observe(&mut self) -> Result<Observation, StepFailure> {
         let PlantState { positions, velocities } = &self.state;
         let relative = joint_poses(&TREE, positions)?;
         let poses = body_poses(&TREE, &relative);

@@ -14,7 +14,9 @@ pub fn write_mechanism_csv(
     to: impl Write,
 ) -> Result<(), ::csv::Error> {
     let mut writer = ::csv::Writer::from_writer(to);
-    writer.write_record(header(mechanism))?;
+    let (configuration, momenta) =
+        samples.first().map_or((0, 0), |s| (s.configuration.len(), s.momentum.len()));
+    writer.write_record(header(mechanism, configuration, momenta))?;
     for sample in samples {
         let numbers = std::iter::once(&sample.time_s)
             .chain(&sample.configuration)
@@ -28,25 +30,24 @@ pub fn write_mechanism_csv(
     Ok(())
 }
 
-fn header(mechanism: &Mechanism) -> Vec<String> {
+const MOMENTA: [&str; 3] = ["momentum_x_nms", "momentum_y_nms", "momentum_z_nms"];
+
+/// Names of all columns, for so many coordinates and momenta.
+fn header(mechanism: &Mechanism, configuration: usize, momenta: usize) -> Vec<String> {
     let (coordinates, momenta): (Vec<String>, &[&str]) = match mechanism {
         Mechanism::RigidBody { .. } => {
             let names = ["q_s", "q_x", "q_y", "q_z"].map(str::to_owned);
-            (names.to_vec(), &["momentum_x_nms", "momentum_y_nms", "momentum_z_nms"])
+            (names.to_vec(), &MOMENTA)
         }
         Mechanism::Pendulum { links, .. } => {
             let point = |k: usize| ["x", "y", "z"].map(|axis| format!("{axis}{}_m", k + 1));
             ((0..links.len()).flat_map(point).collect(), &["momentum_z_nms"])
         }
-        Mechanism::Chain { links, floats, gravity_m_s2, .. } => {
+        Mechanism::Chain { .. } | Mechanism::Multibody(_) | Mechanism::Biped(_) => {
             let names = ["x", "y", "z", "q_s", "q_x", "q_y", "q_z"];
+            let bodies = configuration / names.len();
             let body = |k: usize| names.map(|name| format!("{name}{}", k + 1));
-            let momenta: &[&str] = if *floats && *gravity_m_s2 == 0.0 {
-                &["momentum_x_nms", "momentum_y_nms", "momentum_z_nms"]
-            } else {
-                &[]
-            };
-            ((0..*links).flat_map(body).collect(), momenta)
+            ((0..bodies).flat_map(body).collect(), &MOMENTA[..momenta])
         }
     };
     let rates: Vec<String> = coordinates.iter().map(|name| format!("{name}_per_s")).collect();

@@ -12,7 +12,7 @@ pub struct BuiltIn {
 }
 
 /// All built-in scenes.
-pub const BUILT_IN: [BuiltIn; 7] = [
+pub const BUILT_IN: [BuiltIn; 10] = [
     BuiltIn { name: "experiment-1", text: include_str!("../../scenes/experiment-1.toml") },
     BuiltIn {
         name: "experiment-1-pushes",
@@ -22,7 +22,10 @@ pub const BUILT_IN: [BuiltIn; 7] = [
         name: "experiment-1-welded",
         text: include_str!("../../scenes/experiment-1-welded.toml"),
     },
+    BuiltIn { name: "box-drop", text: include_str!("../../scenes/box-drop.toml") },
+    BuiltIn { name: "biped-flight", text: include_str!("../../scenes/biped-flight.toml") },
     BuiltIn { name: "chain", text: include_str!("../../scenes/chain.toml") },
+    BuiltIn { name: "four-bar", text: include_str!("../../scenes/four-bar.toml") },
     BuiltIn { name: "n-pendulum", text: include_str!("../../scenes/n-pendulum.toml") },
     BuiltIn { name: "rigid-body", text: include_str!("../../scenes/rigid-body.toml") },
     BuiltIn {

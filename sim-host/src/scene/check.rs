@@ -113,8 +113,9 @@ fn timing(scene: &Scene) -> Result<(), SceneError> {
     let step = scene.integrator.step_s;
     duration_and_step(&scene.name, scene.duration_s, step)?;
     let method = scene.integrator.name;
-    if method != Method::SemiImplicitEuler {
-        let expected = format!("{} for a robot", Method::SemiImplicitEuler);
+    if !matches!(method, Method::Variational | Method::SemiImplicitEuler) {
+        let expected =
+            format!("{} or {} for a robot", Method::Variational, Method::SemiImplicitEuler);
         return Err(wrong(scene, "integrator.name", method, expected));
     }
     let rate = scene.controller.rate_hz;

@@ -1,9 +1,12 @@
 //! Scenes of chapter 2: a mechanism that nobody controls.
 
+use super::multibody::{BuildError, Misdescribed, Multibody};
 use super::{Integrator, SceneError};
 use crate::integrators::Method;
-use crate::multibody::ChainJoint;
+use crate::multibody::{ChainJoint, Simulation, states_of_tree, system_of_tree};
+use crate::plant::StepFailure;
 use serde::{Deserialize, Serialize};
+use surefoot::model::robots::biped::TREE;
 
 /// A mechanism, its start, its method and its time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,6 +45,10 @@ pub enum Mechanism {
         /// From the pivot on.
         links: Vec<Link>,
     },
+    /// Bodies and joints of one's own.
+    Multibody(Multibody),
+    /// The biped of §4.1, without a controller or a floor.
+    Biped(Flight),
     /// Equal rods on joints, by the multibody simulator.
     Chain {
         /// How many.
@@ -61,6 +68,30 @@ pub enum Mechanism {
         /// m/s²
         gravity_m_s2: f64,
     },
+}
+
+/// A state of the biped.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Flight {
+    /// m/s², against z.
+    pub gravity_m_s2: f64,
+    /// Centre of mass of the central body, m.
+    pub position_m: [f64; 3],
+    /// Of the central body, world from body, scalar first.
+    pub orientation: [f64; 4],
+    /// Of its centre of mass, in its own axes, m/s.
+    pub velocity_m_s: [f64; 3],
+    /// In its own axes, rad/s.
+    pub angular_velocity_rad_s: [f64; 3],
+    /// Joint angles, hip to foot.
+    pub left_leg_deg: [f64; 6],
+    /// Joint angles, hip to foot.
+    pub right_leg_deg: [f64; 6],
+    /// Their rates.
+    pub left_leg_rates_deg_s: [f64; 6],
+    /// Their rates.
+    pub right_leg_rates_deg_s: [f64; 6],
 }
 
 /// A rod with a mass at its end.
@@ -95,7 +126,7 @@ impl MechanismScene {
                 }
             }
             Mechanism::Chain { links, .. } => *links = number,
-            Mechanism::RigidBody { .. } => {
+            Mechanism::RigidBody { .. } | Mechanism::Multibody(_) | Mechanism::Biped(_) => {
                 return Err(self.wrong("--links", number, "a scene with links".into()));
             }
         }
@@ -106,6 +137,16 @@ impl MechanismScene {
     fn wrong(&self, field: &str, value: impl std::fmt::Debug, expected: String) -> SceneError {
         let (name, field) = (self.name.clone(), field.to_owned());
         SceneError::Value { name, field, value: format!("{value:?}"), expected }
+    }
+
+    /// Bodies in the multibody simulator have one method.
+    fn check_method(&self) -> Result<(), SceneError> {
+        let method = self.integrator.name;
+        if method == Method::Variational {
+            return Ok(());
+        }
+        let expected = format!("{} for bodies and joints", Method::Variational);
+        Err(self.wrong("integrator.name", method, expected))
     }
 
     /// Checks what a file may get wrong.
@@ -154,11 +195,24 @@ impl MechanismScene {
                         "finite numbers".into(),
                     ));
                 }
-                let method = self.integrator.name;
-                if method != Method::Variational {
-                    let expected = format!("{} for a chain", Method::Variational);
-                    return Err(self.wrong("integrator.name", method, expected));
-                }
+                self.check_method()?;
+            }
+            Mechanism::Multibody(bodies) => {
+                self.check_method()?;
+                bodies.start(self.integrator.step_s).map_err(|error| match error {
+                    BuildError::Field(Misdescribed { field, expected }) => {
+                        self.wrong(&field, "what it is", expected)
+                    }
+                    BuildError::System(error) => {
+                        self.wrong("mechanism", "what it is", format!("a system ({error})"))
+                    }
+                })?;
+            }
+            Mechanism::Biped(flight) => {
+                self.check_method()?;
+                flight.start(self.integrator.step_s).map_err(|error| {
+                    self.wrong("mechanism", flight, format!("a state of the biped ({error})"))
+                })?;
             }
             Mechanism::Pendulum { gravity_m_s2, links } => {
                 if !gravity_m_s2.is_finite() {
@@ -182,5 +236,31 @@ impl MechanismScene {
             }
         }
         Ok(())
+    }
+}
+
+impl Flight {
+    /// The motion that begins here, with steps of `h`.
+    ///
+    /// # Errors
+    /// [`StepFailure::Dynamics`] for no configuration, [`StepFailure::System`] for a step that cannot be.
+    pub fn start(&self, h: f64) -> Result<Simulation, StepFailure> {
+        let angles = self.left_leg_deg.iter().chain(&self.right_leg_deg);
+        let rates = self.left_leg_rates_deg_s.iter().chain(&self.right_leg_rates_deg_s);
+        let mut positions = [0.0; crate::plant::NQ];
+        positions[..3].copy_from_slice(&self.position_m);
+        positions[3..7].copy_from_slice(&self.orientation);
+        let mut velocities = [0.0; crate::plant::NV];
+        velocities[..3].copy_from_slice(&self.velocity_m_s);
+        velocities[3..6].copy_from_slice(&self.angular_velocity_rad_s);
+        for (to, degrees) in positions[7..].iter_mut().zip(angles) {
+            *to = degrees.to_radians();
+        }
+        for (to, degrees) in velocities[6..].iter_mut().zip(rates) {
+            *to = degrees.to_radians();
+        }
+        let tree = TREE.with_gravity([0.0, 0.0, -self.gravity_m_s2]);
+        let (states, rates) = states_of_tree(&tree, &positions, &velocities)?;
+        Ok(Simulation::new(system_of_tree(&tree)?, h, &states, &rates)?)
     }
 }

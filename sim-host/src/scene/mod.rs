@@ -6,10 +6,12 @@ mod builtin;
 mod check;
 mod load;
 mod mechanism;
+mod multibody;
 
 pub use builtin::{BuiltIn, built_in};
 pub use load::{AnyScene, SceneError, load, open, parse};
-pub use mechanism::{Link, MOST_LINKS, Mechanism, MechanismScene};
+pub use mechanism::{Flight, Link, MOST_LINKS, Mechanism, MechanismScene};
+pub use multibody::{BodyEntry, BuildError, JointEntry, LoopEntry, Misdescribed, Multibody};
 
 use crate::contact::Floor;
 use crate::integrators::Method;

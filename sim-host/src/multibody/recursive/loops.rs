@@ -21,8 +21,7 @@ use nalgebra::Vector3;
 #[derive(Clone, Debug)]
 pub(super) struct Loops {
     rows: Vec<Row>,
-    /// `λ`, N·s or N·m·s.
-    pub multipliers: Vec<f64>,
+    /// Of the constraints' impulses `λ`, N·s or N·m·s.
     pub corrections: Vec<f64>,
     /// `T(−G⁻ᵀ)`: motions of all columns, by constraint.
     answers: Vec<f64>,
@@ -56,7 +55,6 @@ impl Loops {
         let n = rows.len();
         Self {
             rows,
-            multipliers: vec![0.0; n],
             corrections: vec![0.0; n],
             answers: vec![0.0; n * columns],
             schur: vec![0.0; n * n],
@@ -119,9 +117,9 @@ impl Loops {
     }
 
     /// Impulse of the constraints on a body at the beginning: `G⁻ᵀ λ`.
-    pub fn impulse(&self, k: usize) -> Pair {
+    pub fn impulse(&self, k: usize, multipliers: &[f64]) -> Pair {
         let mut sum = Pair::ZERO;
-        for (row, multiplier) in self.rows.iter().zip(&self.multipliers) {
+        for (row, multiplier) in self.rows.iter().zip(multipliers) {
             for (body, pair) in row.bodies.iter().zip(&row.begin) {
                 if *body == Some(k) {
                     sum.linear += pair.linear * *multiplier;
@@ -133,8 +131,11 @@ impl Loops {
     }
 
     /// The bodies that constraints act on, each once for each constraint, with the impulse there.
-    pub fn impulses(&self) -> impl Iterator<Item = (usize, Pair)> + '_ {
-        self.rows.iter().zip(&self.multipliers).flat_map(|(row, m)| {
+    pub fn impulses<'a>(
+        &'a self,
+        multipliers: &'a [f64],
+    ) -> impl Iterator<Item = (usize, Pair)> + 'a {
+        self.rows.iter().zip(multipliers).flat_map(|(row, m)| {
             row.bodies.iter().zip(&row.begin).filter_map(move |(body, pair)| {
                 let scaled = Pair { linear: pair.linear * *m, angular: pair.angular * *m };
                 body.map(|k| (k, scaled))

@@ -7,12 +7,16 @@
 //!      └ moved ─ Increment ◄─ corrections ◄─ Elimination ◄── stiffness ◄──────┘
 //! ```
 
+mod checkpoint;
 mod elimination;
 mod loops;
+mod newton;
 mod node;
+mod rates;
 mod simulation;
 mod step;
 mod stiffness;
 mod turn;
 
+pub use checkpoint::Checkpoint;
 pub use simulation::Simulation;

@@ -5,6 +5,7 @@ use super::super::{BodyState, Joint, JointConstraint};
 use super::stiffness::Pair;
 use super::turn::Turn;
 use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use surefoot::spatial::Quaternion;
 
@@ -58,7 +59,7 @@ pub(super) struct Node {
 }
 
 /// Where a joint is.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Coordinates {
     /// Of a revolute or universal joint, rad; of a prismatic one, m.
     pub angles: [f64; 2],
@@ -69,7 +70,7 @@ pub(super) struct Coordinates {
 }
 
 /// A joint's motion over a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Increment {
     /// Tangents of half the angles; of a prismatic joint the way, m.
     pub tangents: [f64; 2],
@@ -83,14 +84,26 @@ impl Increment {
     pub const NONE: Self =
         Self { tangents: [0.0; 2], position: Vector3::new(0.0, 0.0, 0.0), turn: Turn::NONE };
 
-    /// The next one, if it changes as it did from the one before.
-    pub fn beyond(&self, before: &Self) -> Self {
-        let v = self.turn.v * 2.0 - before.turn.v;
+    /// A guess of the next one, in a step `ratio` times as long: that it changes as it did from the one before.
+    pub fn beyond(&self, before: &Self, ratio: f64) -> Self {
+        let now = self.scaled(ratio);
+        let further = ratio * ratio;
+        let beyond = |now: f64, last: f64, before: f64| now + further * (last - before);
         Self {
-            tangents: std::array::from_fn(|i| 2.0 * self.tangents[i] - before.tangents[i]),
-            position: self.position * 2.0 - before.position,
-            // Beyond half a turn there is no such; the step will fail in any case.
-            turn: Turn { c: (1.0 - v.norm_squared()).max(0.0).sqrt(), v },
+            tangents: std::array::from_fn(|i| {
+                beyond(now.tangents[i], self.tangents[i], before.tangents[i])
+            }),
+            position: now.position + (self.position - before.position) * further,
+            turn: Turn::of_vector(now.turn.v + (self.turn.v - before.turn.v) * further),
+        }
+    }
+
+    /// The same in a step `ratio` times as long.
+    pub fn scaled(&self, ratio: f64) -> Self {
+        Self {
+            tangents: self.tangents.map(|t| t * ratio),
+            position: self.position * ratio,
+            turn: Turn::of_vector(self.turn.v * ratio),
         }
     }
 }

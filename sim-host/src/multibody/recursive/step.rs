@@ -49,8 +49,6 @@ pub(super) struct Touch {
     /// From the centre of mass at the beginning, and at the trial's end.
     pub begin: Vector3<f64>,
     pub end: Vector3<f64>,
-    /// Memory before the step.
-    pub memory: ContactPoint,
     pub force: StepForce,
 }
 
@@ -92,6 +90,7 @@ pub(super) struct Step<'a> {
     pub places: &'a [Place],
     pub angles: &'a dyn Fn(usize) -> f64,
     pub momenta: &'a [f64],
+    pub memories: &'a [ContactPoint],
     pub loads: &'a Loads,
     pub h: f64,
 }
@@ -113,7 +112,6 @@ impl Trial {
             arm: position.into(),
             begin: Vector3::zeros(),
             end: Vector3::zeros(),
-            memory: ContactPoint::default(),
             force: StepForce {
                 force: Vector3::zeros(),
                 slope: Matrix3::zeros(),
@@ -233,12 +231,13 @@ impl Trial {
         linear.z += 0.5 * h * node.mass * step.system.gravity();
         let mut angular = spin - load.angular * (0.5 * h);
         if let Some((floor, switching)) = step.system.ground() {
-            for touch in &mut self.touches[node.sites.clone()] {
+            let memories = &step.memories[node.sites.clone()];
+            for (touch, memory) in self.touches[node.sites.clone()].iter_mut().zip(memories) {
                 let way = turn.displacement(&touch.begin);
                 touch.end = touch.begin + way;
                 let p = place.center + touch.begin;
                 let p_end = p + displacement + of_center + way;
-                touch.force = touch.memory.over_step(floor, *switching, p, p_end, h);
+                touch.force = memory.over_step(floor, *switching, p, p_end, h);
                 let half = touch.force.force * (0.5 * h);
                 linear -= half;
                 angular -= touch.begin.cross(&half);

@@ -1,10 +1,11 @@
 //! Rotations over a step.
 
 use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 
 /// A rotation from a step's beginning to its end, as a unit quaternion in world axes. Its vector part, and
 /// what it does to an arm, are found without taking differences of nearly equal numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Turn {
     /// Scalar part.
     pub c: f64,
@@ -14,6 +15,12 @@ pub(super) struct Turn {
 
 impl Turn {
     pub const NONE: Self = Self { c: 1.0, v: Vector3::new(0.0, 0.0, 0.0) };
+
+    /// With this vector part. Beyond half a turn there is none; the nearest, then.
+    #[inline]
+    pub fn of_vector(v: Vector3<f64>) -> Self {
+        Self { c: (1.0 - v.norm_squared()).max(0.0).sqrt(), v }
+    }
 
     /// `(1, u)/√(1 + |u|²)`: about `u`, by an angle whose half has the tangent `|u|`.
     #[inline]

@@ -1,0 +1,55 @@
+//! All that a motion needs to go on: what it remembers of its past.
+
+use super::node::{Coordinates, Increment};
+use crate::contact::ContactPoint;
+use crate::integrators::Progress;
+use serde::{Deserialize, Serialize};
+
+/// A motion at one time. One that goes on from here makes the same numbers, to the last bit, as one that
+/// was never stopped.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    pub(super) coordinates: Vec<Coordinates>,
+    /// By column.
+    pub(super) momenta: Vec<f64>,
+    /// Increments of the last two steps, and their length: from them Newton's method begins the next.
+    pub(super) last: [Vec<Increment>; 2],
+    pub(super) last_h: f64,
+    /// Impulses of loops.
+    pub(super) multipliers: Vec<f64>,
+    /// By contact site.
+    pub(super) memories: Vec<ContactPoint>,
+    /// Largest speed so far, m/s: what residuals are measured by.
+    pub(super) fastest: f64,
+    pub(super) progress: Progress,
+}
+
+impl Checkpoint {
+    /// Takes another one's place without allocating.
+    pub(super) fn copy_from(&mut self, other: &Self) {
+        self.coordinates.copy_from_slice(&other.coordinates);
+        self.momenta.copy_from_slice(&other.momenta);
+        for (to, from) in self.last.iter_mut().zip(&other.last) {
+            to.copy_from_slice(from);
+        }
+        self.last_h = other.last_h;
+        self.multipliers.copy_from_slice(&other.multipliers);
+        self.memories.copy_from_slice(&other.memories);
+        self.fastest = other.fastest;
+        self.progress = other.progress;
+    }
+
+    /// Whether it has the sizes of another.
+    pub(super) fn fits(&self, other: &Self) -> bool {
+        let sizes = |c: &Self| {
+            (
+                c.coordinates.len(),
+                c.momenta.len(),
+                c.last.each_ref().map(Vec::len),
+                c.multipliers.len(),
+                c.memories.len(),
+            )
+        };
+        sizes(self) == sizes(other) && self.progress.h == other.progress.h
+    }
+}

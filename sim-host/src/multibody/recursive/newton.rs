@@ -1,0 +1,264 @@
+//! One step: Newton's method with a line search, and shorter steps where it fails.
+
+use super::node::Place;
+use super::simulation::Simulation;
+use super::stiffness::Pair;
+use super::step::{Step, project};
+use crate::integrators::{Progress, StepError, StepFailure};
+use crate::newton::NewtonFailure;
+
+/// Newton steps at most.
+const MOST_ITERATIONS: u32 = 40;
+/// Halvings of a Newton step at most.
+const MOST_HALVINGS: u32 = 12;
+/// Residuals, relative to their terms, that count as a root once they fall no further.
+const TOLERANCE: f64 = 1e-10;
+/// Residuals that count as a root at once.
+const ROUND_OFF: f64 = 2e-15;
+/// While residuals fall by this in an iteration, the elimination is used again.
+const FAST: f64 = 1e-2;
+/// Cosine of half the angle by which a body may turn in a step: beyond a quarter turn (2.51) folds.
+const LEAST_TURN: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// A step that fails is made in 2, 4, … up to 2 to this power.
+const MOST_SPLITS: u32 = 6;
+
+impl Simulation {
+    /// One step. Where its equations have no solution nearby it is made in 2, 4, … 64 shorter ones, which
+    /// [`Progress::split_steps`] counts.
+    ///
+    /// # Errors
+    /// A [`StepError`]; the motion is then where it was.
+    ///
+    /// # Cost
+    /// Linear in the number of links for each Newton iteration; no allocation.
+    pub fn step(&mut self) -> Result<(), StepError> {
+        self.saved.copy_from(&self.at);
+        let h = self.at.progress.h;
+        let mut result = self.advance(h);
+        let mut splits = 0;
+        while result.is_err() && self.splits && splits < MOST_SPLITS {
+            self.restore_saved();
+            splits += 1;
+            let parts = 1_u32 << splits;
+            let made = (0..parts).try_for_each(|_| self.advance(h / f64::from(parts)));
+            if made.is_ok() {
+                self.at.progress.split_steps += 1;
+                result = Ok(());
+            }
+        }
+        match result {
+            Ok(()) => {
+                self.at.progress.advance();
+                Ok(())
+            }
+            Err(error) => {
+                self.restore_saved();
+                Err(error)
+            }
+        }
+    }
+
+    fn restore_saved(&mut self) {
+        self.at.copy_from(&self.saved);
+        self.find_places();
+    }
+
+    /// Goes on by `h`.
+    fn advance(&mut self, h: f64) -> Result<(), StepError> {
+        let ratio = h / self.at.last_h;
+        let [last, before] = &self.at.last;
+        for (k, guess) in self.trial.increments.iter_mut().enumerate() {
+            *guess = last[k].beyond(&before[k], ratio);
+        }
+        self.trial.begin(&self.nodes, &self.places);
+        if !self.loops.is_empty() {
+            self.loops.begin(self.system.closures(), &self.places);
+        }
+        let mut error = self.evaluate(h);
+        let mut iterations = 0;
+        let mut is_fresh = false;
+        'newton: loop {
+            if !error.is_finite() {
+                return Err(self.at.progress.error(NewtonFailure::NotFinite));
+            }
+            if error <= ROUND_OFF {
+                break;
+            }
+            if iterations == MOST_ITERATIONS {
+                let failure = NewtonFailure::TooManyIterations { iterations, residual: error };
+                return Err(self.at.progress.error(failure));
+            }
+            let was_fresh = is_fresh;
+            self.correct(!is_fresh, h)?;
+            self.base.copy_from_slice(&self.trial.increments);
+            self.base_multipliers.copy_from_slice(&self.at.multipliers);
+            let mut share = 1.0;
+            for halvings in 0..=MOST_HALVINGS {
+                self.take(share);
+                let tried = self.evaluate(h);
+                if tried <= (1.0 - 1e-4 * share) * error {
+                    is_fresh = tried < FAST * error;
+                    error = tried;
+                    iterations += 1;
+                    continue 'newton;
+                }
+                if error <= TOLERANCE {
+                    // Round-off has the last word: back to the best iterate.
+                    self.take(0.0);
+                    self.evaluate(h);
+                    break 'newton;
+                }
+                if was_fresh {
+                    // An old elimination is no reason to give up.
+                    self.take(0.0);
+                    self.evaluate(h);
+                    is_fresh = false;
+                    continue 'newton;
+                }
+                if halvings == MOST_HALVINGS {
+                    let failure = NewtonFailure::NoRootNearby { residual: error };
+                    return Err(self.at.progress.error(failure));
+                }
+                share *= 0.5;
+            }
+        }
+        if self.trial.ends.iter().any(|end| end.turn.c < LEAST_TURN) {
+            return Err(self.at.progress.error(StepFailure::WrongBranch));
+        }
+        self.accept(h);
+        self.at.progress.iterated(iterations, error);
+        Ok(())
+    }
+
+    /// Newton's correction at the trial, with the elimination made anew or with the last one.
+    fn correct(&mut self, anew: bool, h: f64) -> Result<(), StepError> {
+        let Self { elimination, nodes, places, trial, at, corrections, loops, .. } = self;
+        let momenta = &at.momenta;
+        if anew {
+            elimination
+                .factor(nodes, places, trial, h)
+                .map_err(|joint| singular(&at.progress, joint))?;
+            if !loops.is_empty() {
+                loops.factor(nodes, elimination);
+            }
+        }
+        let own = |c: usize| momenta[c] + trial.own_impulses[c];
+        if loops.is_empty() {
+            elimination.solve(nodes, |k| trial.ends[k].own, own, corrections);
+        } else {
+            let impulse = |k: usize| {
+                let (own, held) = (trial.ends[k].own, loops.impulse(k, &at.multipliers));
+                Pair { linear: own.linear - held.linear, angular: own.angular - held.angular }
+            };
+            elimination.solve(nodes, impulse, own, corrections);
+            loops.correct(elimination, corrections);
+        }
+        Ok(())
+    }
+
+    /// A share of the corrections from the base.
+    fn take(&mut self, share: f64) {
+        for (k, node) in self.nodes.iter().enumerate() {
+            let by = &self.corrections[node.columns.clone()];
+            self.trial.increments[k] = node.corrected(&self.base[k], by, share);
+        }
+        let all = self.at.multipliers.iter_mut().zip(&self.base_multipliers);
+        for ((to, base), by) in all.zip(&self.loops.corrections) {
+            *to = base + share * by;
+        }
+    }
+
+    /// Largest residual at the trial, relative to its terms.
+    fn evaluate(&mut self, h: f64) -> f64 {
+        let coordinates = &self.at.coordinates;
+        let step = Step {
+            system: &self.system,
+            nodes: &self.nodes,
+            places: &self.places,
+            angles: &|k| coordinates[k].angles[0],
+            momenta: &self.at.momenta,
+            memories: &self.at.memories,
+            loads: &self.loads,
+            h,
+        };
+        self.trial.evaluate(&step);
+        let mut loop_error = 0.0;
+        if !self.loops.is_empty() {
+            self.loops.end(self.system.closures(), &self.places, &self.trial);
+            self.subtract_loops();
+            loop_error = self.loops.largest_error();
+        }
+        for end in &self.trial.ends {
+            let speed = end.velocity.abs().max();
+            // NaN stays out, and is found in the residuals.
+            self.at.fastest = self.at.fastest.max(speed.min(self.at.fastest.max(1.0) * 2.0));
+        }
+        let scale = self.at.fastest.max(f64::MIN_POSITIVE);
+        let mut sum = 0.0;
+        for (r, weight) in self.trial.residuals.iter().zip(&self.weights) {
+            let relative = r / (weight * scale);
+            sum += relative * relative;
+        }
+        sum.sqrt() + loop_error
+    }
+
+    /// Impulses of loops out of the residuals: those act on all columns inboard.
+    fn subtract_loops(&mut self) {
+        for (body, impulse) in self.loops.impulses(&self.at.multipliers) {
+            let mut all = impulse;
+            let mut at = Some(body);
+            while let Some(k) = at {
+                let (node, place) = (&self.nodes[k], &self.places[k]);
+                let first = node.columns.start;
+                let residuals = &mut self.trial.residuals;
+                project(node, place, &all, &mut |c, along| residuals[first + c] -= along);
+                all.angular += place.from_inboard.cross(&all.linear);
+                at = node.inboard;
+            }
+        }
+    }
+
+    /// Goes on to the trial's end.
+    fn accept(&mut self, h: f64) {
+        let inboard_places = &self.places;
+        for (k, node) in self.nodes.iter().enumerate() {
+            let world = Place::world();
+            let inboard = node.inboard.map_or(&world, |i| &inboard_places[i]);
+            self.at.coordinates[k] =
+                node.moved(&self.at.coordinates[k], &self.trial.increments[k], inboard);
+        }
+        self.at.last.swap(0, 1);
+        self.at.last[0].copy_from_slice(&self.trial.increments);
+        if h != self.at.last_h {
+            for before in &mut self.at.last[1] {
+                *before = before.scaled(h / self.at.last_h);
+            }
+        }
+        self.at.last_h = h;
+        self.find_places();
+        let coordinates = &self.at.coordinates;
+        let step = Step {
+            system: &self.system,
+            nodes: &self.nodes,
+            places: &self.places,
+            angles: &|k| coordinates[k].angles[0],
+            momenta: &[],
+            memories: &[],
+            loads: &self.loads,
+            h,
+        };
+        for k in 0..self.nodes.len() {
+            self.trial.ends[k].all = self.trial.end_momentum(&step, k, &self.places[k]);
+        }
+        let own = std::mem::take(&mut self.trial.own_impulses);
+        self.gather_momenta(|c| own[c]);
+        self.trial.own_impulses = own;
+        for (memory, touch) in self.at.memories.iter_mut().zip(&self.trial.touches) {
+            *memory = touch.force.point;
+        }
+    }
+}
+
+pub(super) fn singular(progress: &Progress, joint: usize) -> StepError {
+    progress.error(StepFailure::Newton(NewtonFailure::SingularJacobian { pivot: joint }))
+}

@@ -1,0 +1,111 @@
+//! Velocities and energies, from momenta.
+
+use super::super::body::BodyState;
+use super::node::Increment;
+use super::newton::singular;
+use super::simulation::Simulation;
+use super::stiffness::Pair;
+use super::turn::Turn;
+use crate::integrators::StepError;
+use nalgebra::{Matrix3, Vector3};
+
+impl Simulation {
+    /// Velocities that belong to the momentum, by column: of joints, rad/s or m/s; of a floating body, of
+    /// its centre of mass and its angular velocity, world frame.
+    ///
+    /// # Errors
+    /// A [`StepError`] where the inertia is singular.
+    pub fn column_rates(&mut self) -> Result<&[f64], StepError> {
+        // For a step of no length impulses are momenta, and motions are velocities.
+        let h = self.at.progress.h;
+        self.trial.increments.fill(Increment::NONE);
+        for k in 0..self.nodes.len() {
+            let place = &self.places[k];
+            let end = &mut self.trial.ends[k];
+            end.turn = Turn::NONE;
+            end.to_center = place.to_center;
+            end.from_inboard = place.from_inboard;
+            end.axes = place.axes;
+            end.inertia_turn = Vector3::zeros();
+        }
+        for touch in &mut self.trial.touches {
+            touch.force.slope = Matrix3::zeros();
+        }
+        self.trial.own_slopes.fill(0.0);
+        let Self { elimination, nodes, places, trial, at, corrections, loops, .. } = self;
+        let momenta = &at.momenta;
+        elimination
+            .factor(nodes, places, trial, h)
+            .map_err(|joint| singular(&at.progress, joint))?;
+        elimination.solve(nodes, |_| Pair::ZERO, |c| momenta[c], corrections);
+        if !loops.is_empty() {
+            loops.begin(self.system.closures(), places);
+            loops.stand_still();
+            loops.factor(nodes, elimination);
+            elimination.solve(nodes, |_| Pair::ZERO, |c| momenta[c], corrections);
+            loops.correct(elimination, corrections);
+        }
+        for x in corrections.iter_mut() {
+            *x /= h;
+        }
+        Ok(corrections)
+    }
+
+    /// All bodies' rates that belong to the momentum.
+    ///
+    /// # Errors
+    /// As for [`Self::column_rates`].
+    pub fn rates(&mut self) -> Result<Vec<BodyState>, StepError> {
+        self.column_rates()?;
+        let mut motions: Vec<Pair> = Vec::with_capacity(self.nodes.len());
+        let rates = self.nodes.iter().zip(&self.places).map(|(node, place)| {
+            let mut motion = match node.inboard {
+                None => Pair::ZERO,
+                Some(i) => {
+                    let Pair { linear, angular } = motions[i];
+                    Pair { linear: linear + angular.cross(&place.from_inboard), angular }
+                }
+            };
+            node.add_rates(place, &self.corrections[node.columns.clone()], &mut motion);
+            motions.push(motion);
+            let v = motion.linear + motion.angular.cross(&place.to_center);
+            let q = place.orientation.to_array();
+            let turning = Turn { c: 0.0, v: motion.angular * 0.5 }
+                .after(&Turn { c: q[0], v: Vector3::new(q[1], q[2], q[3]) });
+            [v.x, v.y, v.z, turning.c, turning.v.x, turning.v.y, turning.v.z]
+        });
+        Ok(rates.collect())
+    }
+
+    /// Kinetic energy, and potential energy of gravity and of all springs, J.
+    ///
+    /// # Errors
+    /// As for [`Self::column_rates`].
+    pub fn energies(&mut self) -> Result<(f64, f64), StepError> {
+        let along: f64 = {
+            let rates = self.column_rates()?.to_vec();
+            rates.iter().zip(&self.at.momenta).map(|(v, p)| v * p).sum()
+        };
+        let gravity = self.system.gravity();
+        let weight: f64 = self
+            .nodes
+            .iter()
+            .zip(&self.places)
+            .map(|(node, place)| node.mass * gravity * place.center.z)
+            .sum();
+        let in_joints: f64 =
+            self.trial.laws.iter().map(|law| law.law.energy(self.angle(law.node))).sum();
+        let mut in_floor = 0.0;
+        if let Some((floor, _)) = self.system.ground() {
+            for (node, place) in self.nodes.iter().zip(&self.places) {
+                let touches = &self.trial.touches[node.sites.clone()];
+                for (touch, memory) in touches.iter().zip(&self.at.memories[node.sites.clone()]) {
+                    let p = place.center + place.rotation * touch.arm;
+                    in_floor += memory.spring_energy(floor, &p);
+                }
+            }
+        }
+        Ok((0.5 * along, weight + in_joints + in_floor))
+    }
+
+}

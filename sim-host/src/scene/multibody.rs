@@ -1,0 +1,350 @@
+//! Scenes of bodies and joints of one's own.
+//!
+//! Everything is described as it is at the start, in world axes: where bodies are, where joints are, which
+//! way axes point. Joints' angles are counted from there.
+
+use crate::contact::{Floor, Switching};
+use crate::multibody::{
+    Body, BodyState, Closing, Closure, Joint, JointConstraint, JointLaw, Link, Simulation, Site,
+    System, SystemError,
+};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use surefoot::spatial::Quaternion;
+
+/// Bodies, joints, and what they touch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Multibody {
+    /// m/s², against z.
+    pub gravity_m_s2: f64,
+    /// Bodies, each after the one it hangs from.
+    pub bodies: Vec<BodyEntry>,
+    /// Joints that close loops.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub loops: Vec<LoopEntry>,
+    /// What contact points can touch; without it nothing of contact is computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub floor: Option<Floor>,
+    /// When points enter and leave the floor.
+    #[serde(default)]
+    pub switching: Switching,
+}
+
+/// A body and the joint that holds it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodyEntry {
+    /// For people, and for other bodies to name.
+    pub name: String,
+    /// The body it hangs from; none for the world.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inboard: Option<String>,
+    /// kg
+    pub mass_kg: f64,
+    /// Principal inertias about the centre of mass, kg·m².
+    pub inertia_kg_m2: [f64; 3],
+    /// Centre of mass, m.
+    pub center_m: [f64; 3],
+    /// Of the principal axes, world from body, scalar first.
+    #[serde(default = "upright")]
+    pub orientation: [f64; 4],
+    /// The joint.
+    pub joint: JointEntry,
+    /// Its spring, damper and stops.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub law: Option<JointLaw>,
+    /// Held in the joint, N·m or N.
+    #[serde(default)]
+    pub torque: f64,
+    /// Points that can touch the floor, in the body's frame, m.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contact_points_m: Vec<[f64; 3]>,
+}
+
+/// A joint, with its velocity.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum JointEntry {
+    /// None: the body is free.
+    Floating {
+        /// Of the centre of mass, m/s.
+        #[serde(default)]
+        velocity_m_s: [f64; 3],
+        /// World axes, rad/s.
+        #[serde(default)]
+        angular_velocity_rad_s: [f64; 3],
+    },
+    /// No motion.
+    Fixed {},
+    /// About an axis through a point.
+    Revolute {
+        /// m
+        point_m: [f64; 3],
+        /// Of any length.
+        axis: [f64; 3],
+        /// rad/s
+        #[serde(default)]
+        rate_rad_s: f64,
+    },
+    /// Along an axis.
+    Prismatic {
+        /// Of any length.
+        axis: [f64; 3],
+        /// m/s
+        #[serde(default)]
+        rate_m_s: f64,
+    },
+    /// About two axes through a point, at a right angle.
+    Universal {
+        /// m
+        point_m: [f64; 3],
+        /// Fixed to the inboard, and to the outboard body.
+        axes: [[f64; 3]; 2],
+        /// rad/s
+        #[serde(default)]
+        rates_rad_s: [f64; 2],
+    },
+    /// About a point.
+    Spherical {
+        /// m
+        point_m: [f64; 3],
+        /// Of the body against its inboard one, world axes, rad/s.
+        #[serde(default)]
+        angular_velocity_rad_s: [f64; 3],
+    },
+}
+
+/// A joint that closes a loop.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LoopEntry {
+    /// The bodies that it joins; the second may be left out for the world.
+    pub between: Vec<String>,
+    /// The joint; its velocity is that of the bodies, and must not be given.
+    pub joint: JointEntry,
+}
+
+fn upright() -> [f64; 4] {
+    [1.0, 0.0, 0.0, 0.0]
+}
+
+/// What is wrong with a description: a field and what was expected.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{field}: expected {expected}")]
+pub struct Misdescribed {
+    /// Which one.
+    pub field: String,
+    /// What it should be.
+    pub expected: String,
+}
+
+/// Why a description gives no motion.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BuildError {
+    /// A field is wrong.
+    #[error(transparent)]
+    Field(#[from] Misdescribed),
+    /// The whole is no system.
+    #[error(transparent)]
+    System(#[from] SystemError),
+}
+
+/// Position, orientation and velocities of a body at the start.
+#[derive(Clone, Copy)]
+struct Frame {
+    center: Vector3<f64>,
+    orientation: Quaternion<f64>,
+    velocity: Vector3<f64>,
+    omega: Vector3<f64>,
+}
+
+const WORLD: Frame = Frame {
+    center: Vector3::new(0.0, 0.0, 0.0),
+    orientation: Quaternion { s: 1.0, v: Vector3::new(0.0, 0.0, 0.0) },
+    velocity: Vector3::new(0.0, 0.0, 0.0),
+    omega: Vector3::new(0.0, 0.0, 0.0),
+};
+
+impl Multibody {
+    /// The motion that begins here, with steps of `h`.
+    ///
+    /// # Errors
+    /// A [`BuildError`] with the field's name.
+    pub fn start(&self, h: f64) -> Result<Simulation, BuildError> {
+        let (mut links, mut frames, mut sites) = (Vec::new(), Vec::<Frame>::new(), Vec::new());
+        for (k, entry) in self.bodies.iter().enumerate() {
+            let field = |what: &str| format!("mechanism.bodies[{k}].{what}");
+            let inboard = match &entry.inboard {
+                None => None,
+                Some(name) => Some(self.index(name, k).ok_or_else(|| {
+                    wrong(field("inboard"), format!("the name of an earlier body, not {name:?}"))
+                })?),
+            };
+            if self.index(&entry.name, k).is_some() {
+                return Err(wrong(field("name"), "a name that no other body has").into());
+            }
+            let on = inboard.map_or(WORLD, |i| frames[i]);
+            let mut frame = Frame {
+                center: entry.center_m.into(),
+                orientation: unit(entry.orientation, &field("orientation"))?,
+                ..WORLD
+            };
+            let joint = joint(&entry.joint, &frame, &on, &field("joint"))?;
+            set_velocity(&entry.joint, &mut frame, &on);
+            let body = Body { mass: entry.mass_kg, inertia: entry.inertia_kg_m2 };
+            links.push(Link { inboard, joint, body });
+            frames.push(frame);
+            sites.extend(entry.contact_points_m.iter().map(|p| Site { link: k, position: *p }));
+        }
+        let mut system = System::new(links, self.gravity_m_s2)?;
+        for (k, entry) in self.bodies.iter().enumerate() {
+            if let Some(law) = entry.law {
+                system = system.with_law(k, law)?;
+            }
+        }
+        for (number, entry) in self.loops.iter().enumerate() {
+            system = system.with_closure(self.closure(number, entry, &frames)?)?;
+        }
+        match self.floor {
+            Some(floor) => system = system.on_floor(floor, self.switching, sites)?,
+            None if !sites.is_empty() => {
+                return Err(wrong("mechanism.floor".to_owned(), "a floor for the contact points").into());
+            }
+            None => {}
+        }
+        let (states, rates): (Vec<BodyState>, Vec<BodyState>) =
+            frames.iter().map(Frame::state_and_rate).unzip();
+        let mut simulation = Simulation::new(system, h, &states, &rates)?;
+        for (k, entry) in self.bodies.iter().enumerate() {
+            simulation.set_torque(k, entry.torque);
+        }
+        Ok(simulation)
+    }
+
+    /// The body of a name among the first ones.
+    fn index(&self, name: &str, before: usize) -> Option<usize> {
+        self.bodies[..before].iter().position(|body| body.name == name)
+    }
+
+    fn closure(
+        &self,
+        number: usize,
+        entry: &LoopEntry,
+        frames: &[Frame],
+    ) -> Result<Closure, Misdescribed> {
+        let field = |what: &str| format!("mechanism.loops[{number}].{what}");
+        let find = |name: &String| {
+            self.index(name, self.bodies.len())
+                .ok_or_else(|| wrong(field("between"), format!("names of bodies, not {name:?}")))
+        };
+        let (outboard, inboard) = match &entry.between[..] {
+            [a] => (find(a)?, None),
+            [a, b] => (find(a)?, Some(find(b)?)),
+            _ => return Err(wrong(field("between"), "one or two names")),
+        };
+        let on = inboard.map_or(WORLD, |i| frames[i]);
+        let joint = joint(&entry.joint, &frames[outboard], &on, &field("joint"))?;
+        Ok(Closure { outboard, inboard, closing: Closing::Joint(joint) })
+    }
+}
+
+impl Frame {
+    fn state_and_rate(&self) -> (BodyState, BodyState) {
+        let both = |x: &Vector3<f64>, [s, a, b, c]: [f64; 4]| [x.x, x.y, x.z, s, a, b, c];
+        let q = self.orientation;
+        let q_dot = q.rate(q.conjugate().rotate(self.omega));
+        (both(&self.center, q.to_array()), both(&self.velocity, q_dot.to_array()))
+    }
+}
+
+/// A joint between two bodies where they are.
+fn joint(
+    entry: &JointEntry,
+    outboard: &Frame,
+    inboard: &Frame,
+    field: &str,
+) -> Result<Joint, Misdescribed> {
+    let seen = |frame: &Frame, v: Vector3<f64>| frame.orientation.conjugate().rotate(v);
+    let axis = |axis: &[f64; 3], frame: &Frame| -> Result<[f64; 3], Misdescribed> {
+        let axis = Vector3::from(*axis);
+        let length = axis.norm();
+        if !(length > 1e-9 && length.is_finite()) {
+            return Err(wrong(format!("{field}.axis"), "an axis with a length"));
+        }
+        Ok(seen(frame, axis / length).into())
+    };
+    let center: [f64; 3] = outboard.center.into();
+    let (point, constraint) = match entry {
+        JointEntry::Floating { .. } => (center, JointConstraint::Floating),
+        JointEntry::Fixed {} => (center, JointConstraint::Fixed),
+        JointEntry::Revolute { point_m, axis: a, .. } => {
+            (*point_m, JointConstraint::Revolute { axis: axis(a, outboard)? })
+        }
+        JointEntry::Prismatic { axis: a, .. } => {
+            (center, JointConstraint::Prismatic { axis: axis(a, inboard)? })
+        }
+        JointEntry::Universal { point_m, axes: [a, b], .. } => {
+            let constraint = JointConstraint::Universal {
+                inboard_axis: axis(a, inboard)?,
+                outboard_axis: axis(b, outboard)?,
+            };
+            (*point_m, constraint)
+        }
+        JointEntry::Spherical { point_m, .. } => (*point_m, JointConstraint::Spherical),
+    };
+    let point = Vector3::from(point);
+    Ok(Joint {
+        outboard: seen(outboard, point - outboard.center).into(),
+        inboard: seen(inboard, point - inboard.center).into(),
+        home: inboard.orientation.conjugate().product(outboard.orientation).to_array(),
+        constraint,
+    })
+}
+
+/// Velocity of a body that its joint and its inboard body give it.
+fn set_velocity(entry: &JointEntry, body: &mut Frame, on: &Frame) {
+    let unit = |axis: &[f64; 3]| Vector3::from(*axis).normalize();
+    let (omega, about) = match entry {
+        JointEntry::Floating { velocity_m_s, angular_velocity_rad_s } => {
+            body.velocity = (*velocity_m_s).into();
+            body.omega = (*angular_velocity_rad_s).into();
+            return;
+        }
+        JointEntry::Fixed {} => (Vector3::zeros(), body.center),
+        JointEntry::Revolute { point_m, axis, rate_rad_s } => {
+            (unit(axis) * *rate_rad_s, Vector3::from(*point_m))
+        }
+        JointEntry::Prismatic { axis, rate_m_s } => {
+            body.omega = on.omega;
+            body.velocity = on.velocity
+                + on.omega.cross(&(body.center - on.center))
+                + unit(axis) * *rate_m_s;
+            return;
+        }
+        JointEntry::Universal { point_m, axes, rates_rad_s } => {
+            let omega = unit(&axes[0]) * rates_rad_s[0] + unit(&axes[1]) * rates_rad_s[1];
+            (omega, Vector3::from(*point_m))
+        }
+        JointEntry::Spherical { point_m, angular_velocity_rad_s } => {
+            (Vector3::from(*angular_velocity_rad_s), Vector3::from(*point_m))
+        }
+    };
+    body.omega = on.omega + omega;
+    let of_point = on.velocity + on.omega.cross(&(about - on.center));
+    body.velocity = of_point + body.omega.cross(&(body.center - about));
+}
+
+fn unit(q: [f64; 4], field: &str) -> Result<Quaternion<f64>, Misdescribed> {
+    let given = Quaternion::from_array(q);
+    let norm = given.norm_squared().sqrt();
+    let expected = || format!("a unit quaternion, scalar first (its norm is {norm})");
+    if !((norm - 1.0).abs() < 1e-3) {
+        return Err(wrong(field.to_owned(), expected()));
+    }
+    given.normalized().ok_or_else(|| wrong(field.to_owned(), expected()))
+}
+
+fn wrong(field: String, expected: impl Into<String>) -> Misdescribed {
+    Misdescribed { field, expected: expected.into() }
+}
