@@ -60,7 +60,7 @@ pub fn text(report: &Report<'_>, files: &[PathBuf]) -> String {
 }
 
 /// Events that fit a screen.
-const SHOWN_EVENTS: usize = 12;
+pub(super) const SHOWN_EVENTS: usize = 12;
 
 fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
     let Report { scene, run, .. } = report;
@@ -108,8 +108,17 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
         let (joint, peak) = peaks.largest_joint();
         writeln!(out, "  largest torque: {joint}, {:.1} N·m at {} s", peak.value, peak.time_s)?;
     }
+    if let Some(progress) = &run.progress {
+        writeln!(
+            out,
+            "  Newton iterations: {:.2} on average, {} at most; {} steps made in shorter ones",
+            progress.mean_iterations(),
+            progress.most_iterations,
+            progress.split_steps,
+        )?;
+    }
     if run.constraint_max > 0.0 {
-        writeln!(out, "  feet moved at most {:.2e} (m or rad)", run.constraint_max)?;
+        writeln!(out, "  constraints: {:.2e} at most (m or rad)", run.constraint_max)?;
     }
     Ok(())
 }
@@ -173,7 +182,11 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "failure": run.failure,
         "wall_s": run.wall.as_secs_f64(),
         "wall_us_per_step": run.wall.as_secs_f64() * 1e6 / run.steps.max(1) as f64,
-        "newton": Value::Null,
+        "newton": run.progress.map(|progress| json!({
+            "mean": progress.mean_iterations(),
+            "max": progress.most_iterations,
+            "split_steps": progress.split_steps,
+        })),
         "unknowns_per_step": unknowns(scene),
         "energy": energy(&run.samples),
         "momentum": Value::Null,

@@ -7,7 +7,7 @@ use super::{RUN_FAILED, bad_input, say};
 use crate::chart::write_charts;
 use crate::closed_loop::{self, Run};
 use crate::integrators::Method;
-use crate::record::write_csv;
+use crate::record::{SavedRun, write_csv};
 use crate::scene::{AnyScene, Feet, Scene, TorquesFrom, open};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -40,6 +40,12 @@ pub struct Options {
     /// Where the record and the charts go (default: out/SCENE)
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Where to write the state at the end, to go on from
+    #[arg(long, value_name = "FILE")]
+    pub(super) save: Option<PathBuf>,
+    /// A file of `--save`: the run goes on from there, to the same bits as if it had not stopped
+    #[arg(long, value_name = "FILE")]
+    resume: Option<PathBuf>,
     /// One JSON document on stdout instead of the summary
     #[arg(long)]
     pub(super) json: bool,
@@ -48,6 +54,23 @@ pub struct Options {
 impl Options {
     pub(super) fn folder(&self, scene: &str) -> PathBuf {
         self.out.clone().unwrap_or_else(|| Path::new("out").join(scene))
+    }
+
+    /// The run to go on from, if one was named.
+    pub(super) fn saved(&self, scene: &str) -> Result<Option<SavedRun>, String> {
+        let read = |path: &PathBuf| SavedRun::read(path)?.of_scene(scene);
+        self.resume.as_ref().map(read).transpose()
+    }
+
+    /// Writes where a run stopped, if that was asked for.
+    pub(super) fn write_saved(&self, saved: Option<&SavedRun>) -> Result<(), String> {
+        match (&self.save, saved) {
+            (None, _) => Ok(()),
+            (Some(path), Some(saved)) => saved.write(path),
+            (Some(_), None) => Err("--save: only runs of bodies and joints under the method \
+                                    variational, which have not failed, can be saved"
+                .to_owned()),
+        }
     }
 
     /// Whether something was said that a scene without a controller has no use for.
@@ -71,7 +94,9 @@ pub fn run(options: &Options) -> ExitCode {
         Ok(run) => run,
         Err(message) => return bad_input(&message, options.json),
     };
+    // A run that goes on has no first instant.
     let other = match other_reading(&scene)
+        .filter(|_| options.resume.is_none())
         .map(|scene| simulate(&scene, options).map(|run| (scene.controller.torques_from, run)))
     {
         None => None,
@@ -79,6 +104,9 @@ pub fn run(options: &Options) -> ExitCode {
         Some(Err(message)) => return bad_input(&message, options.json),
     };
 
+    if let Err(message) = options.write_saved(run.saved.as_ref()) {
+        return bad_input(&message, options.json);
+    }
     let files = match write_files(&options.folder(&scene.name), &scene, &run) {
         Ok(files) => files,
         Err(message) => return bad_input(&message, options.json),
@@ -140,8 +168,9 @@ fn other_reading(scene: &Scene) -> Option<Scene> {
 /// Runs with a progress bar on stderr, which hides itself where that is no terminal.
 fn simulate(scene: &Scene, options: &Options) -> Result<Run, String> {
     let mut controller = options.controller.controller(scene).map_err(|error| error.to_string())?;
+    let from = options.saved(&scene.name)?;
     let bar = bar(&scene.name, scene.duration_s);
-    let run = closed_loop::run(scene, controller.as_mut(), &mut |time| {
+    let run = closed_loop::run_from(scene, controller.as_mut(), from.as_ref(), &mut |time| {
         bar.set_position((time * 1e3) as u64);
     });
     bar.finish_and_clear();

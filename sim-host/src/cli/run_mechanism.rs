@@ -1,9 +1,10 @@
 //! `surefoot run` of a mechanism that nobody controls.
 
+use super::report::SHOWN_EVENTS;
 use super::run::{Options, bar, created};
 use super::{RUN_FAILED, bad_input, say};
 use crate::chart::write_mechanism_chart;
-use crate::mechanism::{MechanismRun, run};
+use crate::mechanism::{MechanismRun, run_from};
 use crate::record::write_mechanism_csv;
 use crate::scene::MechanismScene;
 use crate::stability::FailureKind;
@@ -18,13 +19,20 @@ pub(super) fn run_mechanism(scene: MechanismScene, options: &Options) -> ExitCod
         Ok(scene) => scene,
         Err(message) => return bad_input(&message, options.json),
     };
+    let from = match options.saved(&scene.name) {
+        Ok(from) => from,
+        Err(message) => return bad_input(&message, options.json),
+    };
     let bar = bar(&scene.name, scene.duration_s);
-    let run = run(&scene, &mut |time| bar.set_position((time * 1e3) as u64));
+    let run = run_from(&scene, from.as_ref(), &mut |time| bar.set_position((time * 1e3) as u64));
     bar.finish_and_clear();
     let run = match run {
         Ok(run) => run,
         Err(error) => return bad_input(&format!("{}: {error}", scene.name), options.json),
     };
+    if let Err(message) = options.write_saved(run.saved.as_ref()) {
+        return bad_input(&message, options.json);
+    }
     let files = match write_files(&options.folder(&scene.name), &scene, &run) {
         Ok(files) => files,
         Err(message) => return bad_input(&message, options.json),
@@ -119,6 +127,15 @@ fn lines(out: &mut String, scene: &MechanismScene, run: &MechanismRun) -> std::f
         run.progress.most_iterations,
         run.unknowns,
     )?;
+    if run.progress.split_steps > 0 {
+        writeln!(out, "  steps made in shorter ones: {}", run.progress.split_steps)?;
+    }
+    for event in run.events.iter().take(SHOWN_EVENTS) {
+        writeln!(out, "  {:7.4} s  {} {}", event.time_s, event.place, event.kind)?;
+    }
+    if run.events.len() > SHOWN_EVENTS {
+        writeln!(out, "  and {} more events (--json lists all)", run.events.len() - SHOWN_EVENTS)?;
+    }
     if let Some(step) = run.forecast_s {
         writeln!(out, "  longest step foretold: {step:.2e} s")?;
     }
@@ -161,6 +178,7 @@ fn document(scene: &MechanismScene, run: &MechanismRun, files: &[PathBuf]) -> Va
         "newton": {
             "mean": run.progress.mean_iterations(),
             "max": run.progress.most_iterations,
+            "split_steps": run.progress.split_steps,
         },
         "unknowns_per_step": run.unknowns,
         "forecast_step_s": run.forecast_s,
@@ -176,7 +194,7 @@ fn document(scene: &MechanismScene, run: &MechanismRun, files: &[PathBuf]) -> Va
         "final": run.samples.last().map(|sample| {
             json!({ "configuration": sample.configuration, "velocity": sample.velocity })
         }),
-        "events": [],
+        "events": run.events,
         "files": files,
     })
 }

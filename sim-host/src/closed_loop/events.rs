@@ -13,6 +13,13 @@ pub(super) struct Watch {
 const FEET: [&str; 2] = ["left foot", "right foot"];
 
 impl Watch {
+    /// From contact states on, as if they had been looked at before.
+    pub(super) fn from(contacts: &[[ContactState; 4]; 2]) -> Self {
+        let mut watch = Self::default();
+        watch.look(0.0, contacts, &mut Vec::new());
+        watch
+    }
+
     /// Appends what changed since the last look.
     pub(super) fn look(
         &mut self,
@@ -25,7 +32,7 @@ impl Watch {
             let slipping = points.iter().any(|state| {
                 matches!(state, ContactState::Sliding | ContactState::StickingToSliding)
             });
-            let mut push = |kind| events.push(Event { time_s, kind, place: FEET[foot] });
+            let mut push = |kind| events.push(Event { time_s, kind, place: FEET[foot].to_owned() });
             match (self.down[foot], down) {
                 (false, true) => push(EventKind::TouchDown),
                 (true, false) => push(EventKind::LiftOff),

@@ -10,4 +10,4 @@ pub use controller::{
     Commanded, ControlFailure, Controller, Costs, HostController, Scalar, controller, measured,
 };
 pub use outcome::{Failure, Outcome, Peak, Peaks};
-pub use run::{Run, run};
+pub use run::{Run, run, run_from};

@@ -4,7 +4,7 @@ use super::events::Watch;
 use super::{Commanded, Controller, Costs, Failure, Outcome};
 use crate::integrators::{Method, Progress};
 use crate::plant::{OnFloor, Plant, PlantState, StepFailure, Variational, Welded};
-use crate::record::{Event, Sample};
+use crate::record::{Event, Sample, SavedRun};
 use crate::scene::{Feet, Scene, TorquesFrom};
 use nalgebra::Vector3;
 use std::time::{Duration, Instant};
@@ -29,6 +29,8 @@ pub struct Run {
     pub wall: Duration,
     /// What the solver of implicit steps has done, if the plant has one.
     pub progress: Option<Progress>,
+    /// Where it stopped, if it can be taken up again.
+    pub saved: Option<SavedRun>,
     /// What the controller's ticks have cost, where it ran on a target.
     pub costs: Option<Costs>,
 }
@@ -39,6 +41,16 @@ const FALLEN_UPRIGHT: f64 = 0.5;
 
 /// Runs a scene to its end, or until it fails. `progress` is told the simulated time now and then.
 pub fn run(scene: &Scene, controller: &mut dyn Controller, progress: &mut dyn FnMut(f64)) -> Run {
+    run_from(scene, controller, None, progress)
+}
+
+/// The same from where a run has stopped, if one is given: to the same bits as if it had gone on.
+pub fn run_from(
+    scene: &Scene,
+    controller: &mut dyn Controller,
+    from: Option<&SavedRun>,
+    progress: &mut dyn FnMut(f64),
+) -> Run {
     let started = Instant::now();
     let mut run = Run {
         outcome: Outcome::Completed,
@@ -49,11 +61,12 @@ pub fn run(scene: &Scene, controller: &mut dyn Controller, progress: &mut dyn Fn
         constraint_max: 0.0,
         wall: Duration::ZERO,
         progress: None,
+        saved: None,
         costs: None,
     };
     let result = match plant(scene) {
         Ok(mut plant) => {
-            let result = advance(scene, plant.as_mut(), controller, progress, &mut run)
+            let result = advance(scene, plant.as_mut(), controller, (from, progress), &mut run)
                 .map_err(|failure| with_step_limit(failure, scene, plant.as_ref()));
             run.progress = plant.progress().copied();
             result
@@ -90,7 +103,7 @@ fn advance(
     scene: &Scene,
     plant: &mut dyn Plant,
     controller: &mut dyn Controller,
-    progress: &mut dyn FnMut(f64),
+    (from, progress): (Option<&SavedRun>, &mut dyn FnMut(f64)),
     run: &mut Run,
 ) -> Result<(), Failure> {
     let step = scene.integrator.step_s;
@@ -99,7 +112,18 @@ fn advance(
     let ticks = (scene.duration_s * scene.controller.rate_hz).round().max(1.0) as u64;
     let mut watch = Watch::default();
     let mut touched = scene.controller.torques_from == TorquesFrom::Start;
-    for tick in 0..=ticks {
+    let mut first = 0;
+    if let Some(SavedRun { torques_on, checkpoint, .. }) = from {
+        plant.restore(checkpoint).map_err(|failure| step_failure(0.0, failure))?;
+        let made = plant.progress().map_or(0, |progress| progress.steps);
+        if made % steps_per_tick != 0 {
+            return Err(not_at_a_tick(made as f64 * step));
+        }
+        touched |= torques_on;
+        first = made / steps_per_tick;
+        watch = plant.contacts().as_ref().map_or(watch, Watch::from);
+    }
+    for tick in first..=ticks {
         let time = (tick * steps_per_tick) as f64 * step;
         touched |= watch.touched();
         let state = plant.state().map_err(|failure| step_failure(time, failure))?;
@@ -110,6 +134,11 @@ fn advance(
             progress(time);
         }
         if tick == ticks {
+            run.saved = plant.checkpoint().map(|checkpoint| SavedRun {
+                scene: scene.name.clone(),
+                torques_on: touched,
+                checkpoint: checkpoint.clone(),
+            });
             break;
         }
         let push = scene.push(time);
@@ -119,7 +148,8 @@ fn advance(
                 .map_err(|failure| step_failure(time, failure))?;
             run.steps += 1;
             if let Some(contacts) = plant.contacts() {
-                watch.look(run.steps as f64 * step, &contacts, &mut run.events);
+                let made = first * steps_per_tick + run.steps;
+                watch.look(made as f64 * step, &contacts, &mut run.events);
             }
         }
     }
@@ -207,6 +237,15 @@ fn with_step_limit(mut failure: Failure, scene: &Scene, plant: &dyn Plant) -> Fa
         );
     }
     failure
+}
+
+fn not_at_a_tick(time_s: f64) -> Failure {
+    Failure {
+        kind: "resume",
+        time_s,
+        place: "the saved run stopped between two ticks of this scene's controller".into(),
+        advice: "the control rate that the run was saved with".into(),
+    }
 }
 
 fn step_failure(time_s: f64, failure: StepFailure) -> Failure {

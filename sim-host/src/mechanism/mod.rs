@@ -4,4 +4,4 @@ mod moving;
 mod run;
 
 pub use moving::{Moving, StartFailure, start};
-pub use run::{MechanismRun, MechanismSample, run};
+pub use run::{MechanismRun, MechanismSample, run, run_from};

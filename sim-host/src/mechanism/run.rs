@@ -1,7 +1,9 @@
 //! One run.
 
 use super::moving::{Moving, StartFailure, start};
+use crate::contact::{ContactPoint, ContactState};
 use crate::integrators::{Progress, StepError};
+use crate::record::{Event, EventKind, SavedRun};
 use crate::scene::MechanismScene;
 use std::time::{Duration, Instant};
 
@@ -37,6 +39,10 @@ pub struct MechanismRun {
     pub unknowns: usize,
     /// The longest step foretold, s.
     pub forecast_s: Option<f64>,
+    /// Touch-downs and lift-offs of contact points.
+    pub events: Vec<Event>,
+    /// Where it stopped, if it can be taken up again.
+    pub saved: Option<SavedRun>,
     /// Why it ended early.
     pub failure: Option<StepError>,
     /// Computing time.
@@ -51,7 +57,24 @@ const SAMPLES: u64 = 4000;
 /// # Errors
 /// A [`StartFailure`].
 pub fn run(scene: &MechanismScene, at: &mut dyn FnMut(f64)) -> Result<MechanismRun, StartFailure> {
+    run_from(scene, None, at)
+}
+
+/// The same from where a run has stopped, if one is given: to the same bits as if it had gone on.
+///
+/// # Errors
+/// A [`StartFailure`], also for a checkpoint of another motion.
+pub fn run_from(
+    scene: &MechanismScene,
+    from: Option<&SavedRun>,
+    at: &mut dyn FnMut(f64),
+) -> Result<MechanismRun, StartFailure> {
     let mut moving = start(scene)?;
+    if let Some(saved) = from {
+        moving.restore(&saved.checkpoint)?;
+    }
+    let first = moving.progress().steps;
+    let mut watch = Watch { down: is_down(moving.contacts()).collect() };
     let steps = (scene.duration_s / scene.integrator.step_s).round().max(1.0) as u64;
     let every = steps.div_ceil(SAMPLES);
     let mut run = MechanismRun {
@@ -61,11 +84,13 @@ pub fn run(scene: &MechanismScene, at: &mut dyn FnMut(f64)) -> Result<MechanismR
         progress: *moving.progress(),
         unknowns: moving.unknowns(),
         forecast_s: moving.forecast_s(),
+        events: Vec::new(),
+        saved: None,
         failure: None,
         wall: Duration::ZERO,
     };
     let begun = Instant::now();
-    for step in 0..=steps {
+    for step in first..=steps.max(first) {
         let is_sample = step % every == 0 || step == steps;
         if let Err(error) = look(moving.as_mut(), &mut run, is_sample) {
             run.failure = Some(error);
@@ -74,17 +99,46 @@ pub fn run(scene: &MechanismScene, at: &mut dyn FnMut(f64)) -> Result<MechanismR
         if is_sample {
             at(run.progress.time_s);
         }
-        if step == steps {
+        if step >= steps {
             break;
         }
         if let Err(error) = moving.step() {
             run.failure = Some(error);
             break;
         }
+        watch.look(moving.as_ref(), &mut run.events);
     }
     run.progress = *moving.progress();
+    run.saved = moving.checkpoint().map(|checkpoint| SavedRun {
+        scene: scene.name.clone(),
+        torques_on: false,
+        checkpoint: checkpoint.clone(),
+    });
     run.wall = begun.elapsed();
     Ok(run)
+}
+
+/// Watches contact points.
+struct Watch {
+    down: Vec<bool>,
+}
+
+fn is_down(contacts: &[ContactPoint]) -> impl Iterator<Item = bool> + '_ {
+    contacts.iter().map(|point| point.state != ContactState::Free)
+}
+
+impl Watch {
+    /// Appends what changed since the last look.
+    fn look(&mut self, moving: &dyn Moving, events: &mut Vec<Event>) {
+        let time_s = moving.progress().time_s;
+        for (k, (was, is)) in self.down.iter_mut().zip(is_down(moving.contacts())).enumerate() {
+            if *was != is {
+                let kind = if is { EventKind::TouchDown } else { EventKind::LiftOff };
+                events.push(Event { time_s, kind, place: format!("point {}", k + 1) });
+                *was = is;
+            }
+        }
+    }
 }
 
 fn look(moving: &mut dyn Moving, run: &mut MechanismRun, is_sample: bool) -> Result<(), StepError> {

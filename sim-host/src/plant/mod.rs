@@ -13,7 +13,7 @@ pub use welded::Welded;
 
 use crate::contact::ContactState;
 use crate::integrators::{Progress, StepError};
-use crate::multibody::SystemError;
+use crate::multibody::{Checkpoint, SystemError};
 use nalgebra::Vector3;
 use surefoot::dynamics::DynamicsFault;
 
@@ -112,6 +112,20 @@ pub trait Plant {
     /// What the solver of implicit steps has done; `None` for plants without one.
     fn progress(&self) -> Option<&Progress> {
         None
+    }
+
+    /// All that is needed to go on from here; `None` for plants that cannot be taken up again.
+    fn checkpoint(&self) -> Option<&Checkpoint> {
+        None
+    }
+
+    /// Goes on from a checkpoint.
+    ///
+    /// # Errors
+    /// [`StepFailure::System`] for a checkpoint of another plant, and for plants that cannot be taken up
+    /// again.
+    fn restore(&mut self, _: &Checkpoint) -> Result<(), StepFailure> {
+        Err(SystemError::OtherCheckpoint.into())
     }
 }
 

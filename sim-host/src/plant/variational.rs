@@ -4,7 +4,7 @@ use super::{NV, Observation, Plant, PlantState, StepFailure};
 use crate::contact::{ContactState, Floor, Switching};
 use crate::integrators::Progress;
 use crate::multibody::{
-    Closing, Closure, Joint, JointConstraint, Simulation, Site, states_of_tree, system_of_tree,
+    Checkpoint, Closing, Closure, Joint, JointConstraint, Simulation, Site, states_of_tree, system_of_tree,
 };
 use nalgebra::Vector3;
 use surefoot::model::robots::biped::{FEET, SoleOutline, TREE};
@@ -76,8 +76,8 @@ impl Variational {
     fn vertical(&self) -> [f64; 2] {
         let mut sums = [0.0; 2];
         if self.is_on_floor {
-            for (n, force) in self.simulation.contact_forces().enumerate() {
-                sums[n / CORNERS] += force.z;
+            for (n, [_, _, z]) in self.simulation.contact_forces().iter().enumerate() {
+                sums[n / CORNERS] += z;
             }
         } else {
             // Of a weld's constraints the third is the foot's height.
@@ -150,5 +150,13 @@ impl Plant for Variational {
 
     fn progress(&self) -> Option<&Progress> {
         Some(self.simulation.progress())
+    }
+
+    fn checkpoint(&self) -> Option<&Checkpoint> {
+        Some(self.simulation.checkpoint())
+    }
+
+    fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), StepFailure> {
+        Ok(self.simulation.restore(checkpoint)?)
     }
 }

@@ -9,9 +9,9 @@ pub struct Event {
     pub time_s: f64,
     /// What.
     pub kind: EventKind,
-    /// Where: "left foot" or "right foot".
+    /// Where: "left foot" or "right foot"; or "point 3", counted from 1.
     #[serde(rename = "where")]
-    pub place: &'static str,
+    pub place: String,
 }
 
 /// Kinds of events.

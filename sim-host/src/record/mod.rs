@@ -3,10 +3,12 @@
 mod csv;
 mod event;
 mod mechanism_csv;
+mod saved;
 
 pub use self::csv::write_csv;
 pub use event::{Event, EventKind};
 pub use mechanism_csv::write_mechanism_csv;
+pub use saved::SavedRun;
 
 use crate::contact::ContactState;
 use crate::plant::{NQ, NV};

@@ -1,7 +1,11 @@
 //! §5.4.
 
+mod forces;
+mod loops;
 mod motion;
 mod oracle;
 mod reference;
+mod resume;
 mod solver;
+mod throws;
 mod trees;

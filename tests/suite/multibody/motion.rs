@@ -21,6 +21,26 @@ fn at_rest(chain: &Chain, angle: f64, h: f64) -> Simulation {
     Simulation::new(system, h, &chain.bent(angle), &still).expect("a start")
 }
 
+/// Slope of a straight line through points, and its standard error. Neighbours depend on each other: the
+/// error is that of the means of a hundred stretches, whose own are nearly independent.
+pub fn slope(points: &[(f64, f64)]) -> (f64, f64) {
+    let means: Vec<(f64, f64)> = points
+        .chunks(points.len().div_ceil(100))
+        .map(|chunk| {
+            let n = chunk.len() as f64;
+            let sum = chunk.iter().fold((0.0, 0.0), |s, p| (s.0 + p.0, s.1 + (p.1 - points[0].1)));
+            (sum.0 / n, sum.1 / n)
+        })
+        .collect();
+    let n = means.len() as f64;
+    let mean = means.iter().fold((0.0, 0.0), |s, p| (s.0 + p.0 / n, s.1 + p.1 / n));
+    let variance: f64 = means.iter().map(|p| (p.0 - mean.0).powi(2)).sum();
+    let slope =
+        means.iter().map(|p| (p.0 - mean.0) * (p.1 - mean.1)).sum::<f64>() / variance;
+    let left: f64 = means.iter().map(|p| (p.1 - mean.1 - slope * (p.0 - mean.0)).powi(2)).sum();
+    (slope, (left / (n - 2.0) / variance).sqrt())
+}
+
 /// One link on a hinge is the physical pendulum: its period by the arithmetic-geometric mean.
 #[test]
 fn one_link_is_the_physical_pendulum() {
@@ -95,50 +115,75 @@ fn free_trees_keep_their_momenta() {
     }
 }
 
-/// The 10-link chain at 1 ms: energy in a narrow band without a slope, constraints at round-off.
+/// The 10-link chain at 1 ms over 1e5 steps: energy in a narrow band, constraints at round-off. The line
+/// through its energy moves by what the chain's modes exchange among them while it forgets its start (the
+/// modified energy is what stays, not the energy): the next test asks whether there is a drift.
 #[test]
-fn energy_of_a_chain_has_no_slope() {
+fn energy_of_a_chain_stays_in_a_narrow_band() {
     let mut simulation = at_rest(&CHAIN, 0.3, 1e-3);
-    let energy = |simulation: &mut Simulation| {
-        let rates = simulation.rates().expect("rates");
-        simulation.system().energy(&simulation.states(), &rates)
-    };
     let first = energy(&mut simulation);
-    let (mut low, mut high) = (first, first);
-    let (mut n, mut t, mut e, mut tt, mut te) = (0.0, 0.0, 0.0, 0.0, 0.0);
-    let (mut constraint, mut fastest) = (0.0_f64, 0.0_f64);
+    let (mut low, mut high, mut constraint) = (first, first, 0.0_f64);
     for step in 0..100_000 {
+        simulation.step().expect("a step");
         if step % 20 == 0 {
-            let (time, now) = (simulation.progress().time_s, energy(&mut simulation));
+            let now = energy(&mut simulation);
             (low, high) = (low.min(now), high.max(now));
-            let rates = simulation.rates().expect("rates");
-            fastest = rates.iter().fold(fastest, |m, v| m.max(v[0].abs()));
-            n += 1.0;
-            t += time;
-            e += now - first;
-            tt += time * time;
-            te += time * (now - first);
             constraint =
                 constraint.max(simulation.system().largest_constraint(&simulation.states()));
         }
-        simulation.step().expect("a step");
     }
-    let slope = (n * te - t * e) / (n * tt - t * t);
     // Potential energy over which the chain moves.
     let size =
         CHAIN.gravity * (0..10).map(|k| CHAIN.mass * CHAIN.length * (k as f64 + 0.5)).sum::<f64>();
     let progress = simulation.progress();
     println!(
-        "band {:.1e} of {size:.0} J, speed up to {fastest:.1} m/s, slope {slope:.1e} J/s, constraints \
-         {constraint:.1e}, {:.2} iterations, {} at most",
+        "band {:.1e} of {size:.0} J, constraints {constraint:.1e}, {:.2} iterations, {} at most",
         (high - low) / size,
         progress.mean_iterations(),
         progress.most_iterations,
     );
-    assert!((high - low) / size < 0.011, "{low} {high}");
+    assert!((high - low) / size < 1e-3, "{low} {high}");
     assert!(constraint < 1e-10, "{constraint}");
-    // Over the whole run the line moves by less than a hundredth of the band.
-    assert!(slope.abs() * 100.0 < 0.01 * size, "{slope}");
+    assert_eq!(progress.split_steps, 0);
+}
+
+/// Slopes of the energy over 1e5 steps, of eight chains that have forgotten their starts: their mean is
+/// zero within its standard error.
+#[test]
+fn energy_of_chains_has_no_slope() {
+    let slopes: Vec<f64> = std::thread::scope(|scope| {
+        let runs = [0, 1].map(|half| {
+            scope.spawn(move || -> Vec<f64> {
+                (0..4).map(|k| slope_after_relaxing(0.25 + 0.02 * f64::from(2 * k + half))).collect()
+            })
+        });
+        runs.into_iter().flat_map(|run| run.join().expect("a run")).collect()
+    });
+    let n = slopes.len() as f64;
+    let mean = slopes.iter().sum::<f64>() / n;
+    let variance = slopes.iter().map(|s| (s - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    let error = (variance / n).sqrt();
+    println!("slope {mean:.1e} ± {error:.1e} J/s, of {slopes:?}");
+    assert!(mean.abs() < 2.0 * error, "{mean} ± {error}");
+    // What is asked for matters: over the run, less than a thousandth of the band's limit.
+    assert!(error < 1e-5, "{error}");
+}
+
+fn slope_after_relaxing(bend: f64) -> f64 {
+    let mut simulation = at_rest(&CHAIN, bend, 1e-3);
+    let mut energies = Vec::new();
+    for step in 0..200_000 {
+        simulation.step().expect("a step");
+        if step >= 100_000 && step % 20 == 0 {
+            energies.push((simulation.progress().time_s, energy(&mut simulation)));
+        }
+    }
+    slope(&energies).0
+}
+
+fn energy(simulation: &mut Simulation) -> f64 {
+    let (kinetic, potential) = simulation.energies().expect("regular");
+    kinetic + potential
 }
 
 #[test]

@@ -19,6 +19,8 @@ pub struct Checkpoint {
     pub(super) multipliers: Vec<f64>,
     /// By contact site.
     pub(super) memories: Vec<ContactPoint>,
+    /// Mean forces on them in the last step, N.
+    pub(super) forces: Vec<[f64; 3]>,
     /// Largest speed so far, m/s: what residuals are measured by.
     pub(super) fastest: f64,
     pub(super) progress: Progress,
@@ -35,6 +37,7 @@ impl Checkpoint {
         self.last_h = other.last_h;
         self.multipliers.copy_from_slice(&other.multipliers);
         self.memories.copy_from_slice(&other.memories);
+        self.forces.copy_from_slice(&other.forces);
         self.fastest = other.fastest;
         self.progress = other.progress;
     }
@@ -48,6 +51,7 @@ impl Checkpoint {
                 c.last.each_ref().map(Vec::len),
                 c.multipliers.len(),
                 c.memories.len(),
+                c.forces.len(),
             )
         };
         sizes(self) == sizes(other) && self.progress.h == other.progress.h

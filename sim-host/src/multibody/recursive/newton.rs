@@ -253,8 +253,9 @@ impl Simulation {
         let own = std::mem::take(&mut self.trial.own_impulses);
         self.gather_momenta(|c| own[c]);
         self.trial.own_impulses = own;
-        for (memory, touch) in self.at.memories.iter_mut().zip(&self.trial.touches) {
-            *memory = touch.force.point;
+        for (k, touch) in self.trial.touches.iter().enumerate() {
+            self.at.memories[k] = touch.force.point;
+            self.at.forces[k] = touch.force.force.into();
         }
     }
 }

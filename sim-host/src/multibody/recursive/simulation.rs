@@ -71,6 +71,7 @@ impl Simulation {
             last_h: h,
             multipliers: vec![0.0; loops.len()],
             memories: vec![ContactPoint::default(); system.sites().len()],
+            forces: vec![[0.0; 3]; system.sites().len()],
             fastest: system.gravity().abs() * h,
             progress: Progress::new(h),
         };
@@ -171,8 +172,8 @@ impl Simulation {
     }
 
     /// Mean forces on the contact sites in the last step, N, world frame.
-    pub fn contact_forces(&self) -> impl Iterator<Item = Vector3<f64>> + '_ {
-        self.trial.touches.iter().map(|touch| touch.force.force)
+    pub fn contact_forces(&self) -> &[[f64; 3]] {
+        &self.at.forces
     }
 
     /// Impulses of the loops' constraints in the last step, closure after closure: N·s for points.

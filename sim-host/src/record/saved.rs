@@ -1,0 +1,50 @@
+//! A run that stopped, to be taken up again.
+
+use crate::multibody::Checkpoint;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// Where a run stopped. Numbers are written with as many digits as give back the same bits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SavedRun {
+    /// Name of its scene.
+    pub scene: String,
+    /// Whether the controller's torques had set in; of no meaning without a controller.
+    pub torques_on: bool,
+    /// The motion.
+    pub checkpoint: Checkpoint,
+}
+
+impl SavedRun {
+    /// Writes it as JSON.
+    ///
+    /// # Errors
+    /// What went wrong, with the file's name.
+    pub fn write(&self, path: &Path) -> Result<(), String> {
+        let context = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+        let text = serde_json::to_string_pretty(self).map_err(|error| context(&error))?;
+        std::fs::write(path, text).map_err(|error| context(&error))
+    }
+
+    /// Reads it.
+    ///
+    /// # Errors
+    /// What went wrong, with the file's name, and where in it.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let context = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+        let text = std::fs::read_to_string(path).map_err(|error| context(&error))?;
+        serde_json::from_str(&text).map_err(|error| context(&error))
+    }
+
+    /// Its checkpoint, if it belongs to a scene of this name.
+    ///
+    /// # Errors
+    /// Which scene it belongs to.
+    pub fn of_scene(self, scene: &str) -> Result<Self, String> {
+        if self.scene == scene {
+            return Ok(self);
+        }
+        Err(format!("the saved run is of scene {:?}, not {scene:?}", self.scene))
+    }
+}

@@ -1,0 +1,70 @@
+//! No step of the multibody simulator allocates: in flight, on both feet, welded, or closed.
+//!
+//! A binary of its own, as the allocator is the program's, and with one test, as threads share it.
+
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use std::alloc::System;
+use surefoot_sim::multibody::Simulation;
+use surefoot_sim::plant::{Plant, Variational};
+use surefoot_sim::scene::{AnyScene, Feet, Mechanism, open};
+
+#[global_allocator]
+static COUNTING: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+fn simulation(scene: &str, h: f64) -> Simulation {
+    let AnyScene::Mechanism(scene) = open(scene).expect("built in") else { unreachable!() };
+    match scene.mechanism {
+        Mechanism::Multibody(bodies) => bodies.start(h).expect("a start"),
+        Mechanism::Biped(flight) => flight.start(h).expect("a start"),
+        _ => unreachable!("bodies"),
+    }
+}
+
+fn count(name: &str, mut step: impl FnMut()) {
+    let region = Region::new(COUNTING);
+    for _ in 0..300 {
+        step();
+    }
+    let change = region.change();
+    let made = change.allocations + change.reallocations;
+    assert_eq!(made, 0, "{name} allocates: {change:?}");
+}
+
+#[test]
+fn no_step_allocates() {
+    // The counter counts.
+    let region = Region::new(COUNTING);
+    std::hint::black_box(vec![0_u8; 100]);
+    assert_eq!(region.change().allocations, 1);
+
+    for scene in ["biped-flight", "box-drop", "four-bar"] {
+        let mut simulation = simulation(scene, 1e-3);
+        count(scene, || simulation.step().expect("a step"));
+        count("rates", || {
+            simulation.column_rates().expect("rates");
+        });
+    }
+    // Steps that have to be made in shorter ones.
+    let mut large = simulation("box-drop", 2e-2);
+    count("large steps", || {
+        let _ = large.step();
+    });
+    for name in ["experiment-1", "experiment-1-welded"] {
+        let AnyScene::Robot(scene) = open(name).expect("built in") else { unreachable!() };
+        let start = scene.initial.state();
+        let mut plant = match &scene.feet {
+            Feet::Floor { outline, floor } => {
+                Variational::on_floor(&start, 1e-3, *floor, &outline.sole())
+            }
+            Feet::Welded {} => Variational::welded(&start, 1e-3),
+        }
+        .expect("a plant");
+        // Enough to hold the knees for a while.
+        let mut torques = [0.0; 12];
+        (torques[3], torques[9]) = (100.0, 100.0);
+        count(name, || {
+            plant.step(1e-3, &torques, None).expect("a step");
+            plant.state().expect("a state");
+        });
+    }
+}
