@@ -1,6 +1,7 @@
 //! The work that benches and instruction counts measure, declared once: algorithm × model × scalar.
 
 use crate::chains::chain;
+use crate::motions::{MotionStart, biped_in_flight, biped_on_feet, hanging_chain};
 use nalgebra::Vector3;
 use std::cell::RefCell;
 use std::hint::black_box;
@@ -14,10 +15,7 @@ use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
 use surefoot_sim::integrators::{Method, start_natural};
 use surefoot_sim::mechanics::systems::DoubleSphericalPendulum;
-use surefoot_sim::contact::{Floor, Switching};
-use surefoot_sim::multibody::{
-    Chain, ChainJoint, ConstrainedSimulation, JointLaw, Simulation, Site, states_of_tree, system_of_tree,
-};
+use surefoot_sim::multibody::ConstrainedSimulation;
 
 /// One call of an algorithm, joint poses included.
 pub struct Workload {
@@ -28,7 +26,7 @@ pub struct Workload {
 }
 
 /// Angles and rates that are no special case.
-fn wave<T: Real, const M: usize>(phase: f64) -> [T; M] {
+pub(crate) fn wave<T: Real, const M: usize>(phase: f64) -> [T; M] {
     std::array::from_fn(|i| T::of(0.5 * (1.3 * i as f64 + phase).sin()))
 }
 
@@ -139,69 +137,32 @@ fn on_chain<const N: usize>() -> Vec<Workload> {
     all
 }
 
-/// Steps of a hanging chain of revolute joints from rest, by the multibody simulator.
+/// Steps of a hanging chain, by the multibody simulator and by the one with constraints.
 fn on_rods(links: usize) -> [Workload; 2] {
-    let chain = Chain {
-        links,
-        mass: 1.0,
-        length: 0.1,
-        radius: 0.02,
-        joint: ChainJoint::Alternating,
-        floats: false,
-        gravity: 9.81,
-    };
-    let (system, still) = (chain.system().expect("a system"), vec![[0.0; 7]; links]);
-    let states = chain.bent(0.05);
-    let start = Simulation::new(system.clone(), 1e-3, &states, &still).expect("a start");
-    let simulation = RefCell::new(start);
-    let oracle = ConstrainedSimulation::new(system, 1e-3, states, still).expect("a start");
+    let start = hanging_chain(links, 0.1, 0.05);
+    let simulation = RefCell::new(start.simulation(1e-3));
+    let MotionStart { name, system, states, rates } = start;
+    let oracle = ConstrainedSimulation::new(system, 1e-3, states, rates).expect("a start");
     let oracle = RefCell::new(oracle);
     [
         Workload {
-            name: format!("multibody-step/chain-{links}/f64"),
+            name: format!("multibody-step/{name}/f64"),
             call: Box::new(move || simulation.borrow_mut().step().expect("a step")),
         },
         Workload {
-            name: format!("constrained-step/chain-{links}/f64"),
+            name: format!("constrained-step/{name}/f64"),
             call: Box::new(move || oracle.borrow_mut().step().expect("a step")),
         },
     ]
 }
 
-/// Steps of the biped in flight and on both feet, by the multibody simulator.
+/// Steps of the biped in flight, and standing.
 fn on_multibody_biped() -> [Workload; 2] {
-    let positions = biped_positions();
-    let mut standing: [f64; 19] = [0.0; 19];
-    standing[2] = 1.03;
-    standing[3] = 1.0;
-    for leg in [7, 13] {
-        standing[leg + 1] = 40.0_f64.to_radians();
-        standing[leg + 3] = -77.4595_f64.to_radians();
-        standing[leg + 5] = (77.4595_f64 - 40.0).to_radians();
-    }
-    let still = [0.0; 18];
-    let system = || system_of_tree(&TREE).expect("a system");
-    let (states, rates) = states_of_tree(&TREE, &positions, &wave(0.4)).expect("states");
-    let flight = Simulation::new(system(), 1e-3, &states, &rates).expect("a start");
-    let corners = biped::SoleOutline::A.corners();
-    let sites = biped::FEET.into_iter().flat_map(|foot| {
-        corners.map(|corner| Site { link: foot, position: corner.into() })
-    });
-    let mut on_floor = system()
-        .on_floor(Floor::RUBBER, Switching::default(), sites.collect())
-        .expect("sites");
-    for k in 1..13 {
-        // Stiff enough to stand.
-        let law =
-            JointLaw { stiffness: 3000.0, rest: standing[6 + k], damping: 100.0, stops: None };
-        on_floor = on_floor.with_law(k, law).expect("a law");
-    }
-    let (states, rates) = states_of_tree(&TREE, &standing, &still).expect("states");
-    let mut on_feet = Simulation::new(on_floor, 1e-3, &states, &rates).expect("a start");
+    let mut on_feet = biped_on_feet().simulation(1e-3);
     for _ in 0..500 {
         on_feet.step().expect("a step");
     }
-    [("flight", flight), ("feet", on_feet)].map(|(name, start)| {
+    [("flight", biped_in_flight().simulation(1e-3)), ("feet", on_feet)].map(|(name, start)| {
         let simulation = RefCell::new(start);
         Workload {
             name: format!("multibody-step/biped-{name}/f64"),

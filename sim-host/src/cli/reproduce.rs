@@ -2,8 +2,7 @@
 
 use super::report::percent;
 use super::{RUN_FAILED, bad_input, say};
-use crate::experiments::{Comparison, Figure, double_pendulum, free_body};
-use crate::integrators::StepError;
+use crate::experiments::{Comparison, Figure, box_drop, double_pendulum, free_body};
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
 use indicatif::ProgressBar;
@@ -38,9 +37,12 @@ const DOUBLE_PENDULUM: [&str; 7] = [
     "figure-2.11",
     "figure-2.12",
 ];
+const BOX_DROP: [&str; 4] = ["figure-5.3", "figure-5.4", "figure-5.5", "figure-5.6"];
+
 /// Everything that can be asked for.
 fn names() -> PossibleValuesParser {
-    PossibleValuesParser::new(FREE_BODY.into_iter().chain(DOUBLE_PENDULUM).chain(["all"]))
+    let all = FREE_BODY.into_iter().chain(DOUBLE_PENDULUM).chain(BOX_DROP);
+    PossibleValuesParser::new(all.chain(["all"]))
 }
 
 /// Reproduces and compares.
@@ -48,8 +50,9 @@ pub fn reproduce(options: &Options) -> ExitCode {
     let wanted = |name: &str| options.figure == "all" || options.figure == name;
     let mut items = Vec::new();
     let made = [
-        (&FREE_BODY[..], free_body_items as fn() -> Result<Vec<Item>, StepError>),
+        (&FREE_BODY[..], free_body_items as fn() -> Made),
         (&DOUBLE_PENDULUM[..], double_pendulum_items),
+        (&BOX_DROP[..], box_drop_items),
     ];
     for (names, make) in made {
         if !names.iter().any(|name| wanted(name)) {
@@ -149,14 +152,21 @@ impl Item {
     }
 }
 
-fn free_body_items() -> Result<Vec<Item>, StepError> {
+/// Items, or why there are none.
+type Made = Result<Vec<Item>, Box<dyn std::error::Error>>;
+
+fn free_body_items() -> Made {
     let runs = free_body::Runs::new()?;
     let mut items = vec![Item::table("table-2.1", free_body::READING, runs.table_2_1())];
     items.extend(runs.figures().into_iter().map(Item::figure));
     Ok(items)
 }
 
-fn double_pendulum_items() -> Result<Vec<Item>, StepError> {
+fn box_drop_items() -> Made {
+    Ok(box_drop::Run::new()?.figures().into_iter().map(Item::figure).collect())
+}
+
+fn double_pendulum_items() -> Made {
     let runs = double_pendulum::Runs::new()?;
     let mut items = vec![Item::table("table-2.2", double_pendulum::READING, runs.table_2_2())];
     items.extend(runs.figures().into_iter().map(Item::figure));

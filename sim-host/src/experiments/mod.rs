@@ -1,5 +1,6 @@
 //! What the dissertation prints about its experiments, beside what a run gives.
 
+pub mod box_drop;
 mod comparison;
 pub mod double_pendulum;
 mod experiment_1;
