@@ -37,12 +37,12 @@ pub struct StepForce {
 }
 
 /// `F_n` and its derivative with respect to the height at the end.
-fn normal_force(floor: &Floor, switching: Switching, z0: f64, z1: f64, h: f64) -> (f64, f64) {
+fn normal_force(floor: &Floor, switching: Switching, z0: f64, way: f64, h: f64) -> (f64, f64) {
     let (k, b) = (floor.normal_stiffness, floor.normal_damping);
-    let v = (z1 - z0) / h;
-    let all = (-(0.5 * k * (z0 + z1) + b * v), -(0.5 * k + b / h));
+    let (z1, v) = (z0 + way, way / h);
+    let all = (-(k * (z0 + 0.5 * way) + b * v), -(0.5 * k + b / h));
     if switching == Switching::AtMidpoint {
-        return if z0 + z1 < 0.0 { all } else { (0.0, 0.0) };
+        return if z0 + 0.5 * way < 0.0 { all } else { (0.0, 0.0) };
     }
     // Height below which the floor presses.
     let (c, c_slope) = if v > 0.0 { (-b * v / k, -b / (k * h)) } else { (0.0, 0.0) };
@@ -51,14 +51,14 @@ fn normal_force(floor: &Floor, switching: Switching, z0: f64, z1: f64, h: f64) -
         (false, false) => (0.0, 0.0),
         // Entering. With c = 0: share z₁/(z₁ − z₀) of the step, at a mean height of z₁/2.
         (false, true) => {
-            let share = z1 / (z1 - z0);
-            let share_slope = -z0 / ((z1 - z0) * (z1 - z0));
+            let share = z1 / way;
+            let share_slope = -z0 / (way * way);
             let force = -(0.5 * k * z1 + b * v);
             (share * force, share_slope * force - share * (0.5 * k + b / h))
         }
         // Leaving: from k (c − z₀) to zero, over a share (c − z₀)/(z₁ − z₀).
         (true, false) => {
-            let (depth, way) = (c - z0, z1 - z0);
+            let depth = c - z0;
             let force = 0.5 * k * depth * depth / way;
             (force, k * depth * c_slope / way - force / way)
         }
@@ -66,25 +66,25 @@ fn normal_force(floor: &Floor, switching: Switching, z0: f64, z1: f64, h: f64) -
 }
 
 impl ContactPoint {
-    /// The force over a step from `p₀` to `p₁`, with the transitions of that step. The state entered acts
-    /// in the same step.
+    /// The force over a step from `p₀` by `way = p₁ − p₀`, with the transitions of that step. The state
+    /// entered acts in the same step.
     pub fn over_step(
         &self,
         floor: &Floor,
         switching: Switching,
         p0: Vector3<f64>,
-        p1: Vector3<f64>,
+        way: Vector3<f64>,
         h: f64,
     ) -> StepForce {
         let start = self.state.settled();
-        let (normal, normal_slope) = normal_force(floor, switching, p0.z, p1.z, h);
+        let (normal, normal_slope) = normal_force(floor, switching, p0.z, way.z, h);
         let below_floor = match switching {
-            Switching::AtMidpoint => p0.z + p1.z < 0.0,
-            Switching::WithinTheStep => p1.z < 0.0 || normal > 0.0,
+            Switching::AtMidpoint => p0.z + 0.5 * way.z < 0.0,
+            Switching::WithinTheStep => p0.z + way.z < 0.0 || normal > 0.0,
         };
-        let v_t = (p1.xy() - p0.xy()) / h;
+        let v_t = way.xy() / h;
         let speed = v_t.norm();
-        let mean = 0.5 * (p0.xy() + p1.xy());
+        let mean = p0.xy() + way.xy() * 0.5;
         let (k, b) = (floor.tangential_stiffness, floor.tangential_damping);
         let held = -((mean - self.anchor) * k + v_t * b);
         let conditions = Conditions {
@@ -196,7 +196,7 @@ mod tests {
     fn slopes_are_derivatives() {
         for switching in [Switching::AtMidpoint, Switching::WithinTheStep] {
             for (point, p0, p1) in cases() {
-                let at = |p: Vector3<f64>| point.over_step(&FLOOR, switching, p0, p, H);
+                let at = |p: Vector3<f64>| point.over_step(&FLOOR, switching, p0, p - p0, H);
                 let here = at(p1);
                 for j in 0..3 {
                     let mut d = Vector3::zeros();
@@ -224,7 +224,7 @@ mod tests {
                 })
                 .sum::<f64>()
                 / n as f64;
-            let (force, _) = normal_force(&FLOOR, Switching::WithinTheStep, p0.z, p1.z, H);
+            let (force, _) = normal_force(&FLOOR, Switching::WithinTheStep, p0.z, p1.z - p0.z, H);
             assert!((force - mean).abs() < 1e-4 * mean.max(1.0), "{p0} {p1}: {force} {mean}");
         }
     }
@@ -235,7 +235,7 @@ mod tests {
         let largest_jump = |switching| {
             (0..20_000)
                 .map(|i| 2e-3 - 4e-3 * f64::from(i) / 20_000.0)
-                .map(|z1| normal_force(&FLOOR, switching, 1e-3, z1, H).0)
+                .map(|z1| normal_force(&FLOOR, switching, 1e-3, z1 - 1e-3, H).0)
                 .fold((0.0_f64, None::<f64>), |(jump, last), force| {
                     (jump.max(last.map_or(0.0, |last| (force - last).abs())), Some(force))
                 })
@@ -250,7 +250,7 @@ mod tests {
         for (point, p0, p1) in cases() {
             for switching in [Switching::AtMidpoint, Switching::WithinTheStep] {
                 let StepForce { force, point: after, .. } =
-                    point.over_step(&FLOOR, switching, p0, p1, H);
+                    point.over_step(&FLOOR, switching, p0, p1 - p0, H);
                 assert!(force.z >= 0.0);
                 assert!(force.xy().norm() <= FLOOR.static_friction * force.z * (1.0 + 1e-12), "{after:?}");
             }

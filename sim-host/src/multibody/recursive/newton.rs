@@ -100,6 +100,10 @@ impl Simulation {
                     is_fresh = tried < FAST * error;
                     error = tried;
                     iterations += 1;
+                    if error <= TOLERANCE && !is_fresh {
+                        // So close to a root only round-off makes it slow.
+                        break 'newton;
+                    }
                     continue 'newton;
                 }
                 if error <= TOLERANCE {
@@ -193,13 +197,12 @@ impl Simulation {
             // NaN stays out, and is found in the residuals.
             self.at.fastest = self.at.fastest.max(speed.min(self.at.fastest.max(1.0) * 2.0));
         }
-        let scale = self.at.fastest.max(f64::MIN_POSITIVE);
         let mut sum = 0.0;
         for (r, weight) in self.trial.residuals.iter().zip(&self.weights) {
-            let relative = r / (weight * scale);
+            let relative = r * weight;
             sum += relative * relative;
         }
-        sum.sqrt() + loop_error
+        sum.sqrt() / self.at.fastest.max(f64::MIN_POSITIVE) + loop_error
     }
 
     /// Impulses of loops out of the residuals: those act on all columns inboard.
@@ -220,10 +223,9 @@ impl Simulation {
 
     /// Goes on to the trial's end.
     fn accept(&mut self, h: f64) {
-        let inboard_places = &self.places;
+        let world = Place::world();
         for (k, node) in self.nodes.iter().enumerate() {
-            let world = Place::world();
-            let inboard = node.inboard.map_or(&world, |i| &inboard_places[i]);
+            let inboard = node.inboard.map_or(&world, |i| &self.places[i]);
             self.at.coordinates[k] =
                 node.moved(&self.at.coordinates[k], &self.trial.increments[k], inboard);
         }

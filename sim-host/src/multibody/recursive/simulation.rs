@@ -24,7 +24,7 @@ pub struct Simulation {
     pub(super) splits: bool,
     pub(super) places: Vec<Place>,
     pub(super) loads: Loads,
-    /// What a unit of speed is in a column's momentum.
+    /// What a column's momentum is in speed, 1/kg or 1/(kg·m).
     pub(super) weights: Vec<f64>,
     pub(super) trial: Trial,
     pub(super) base: Vec<Increment>,
@@ -234,7 +234,7 @@ impl Simulation {
     }
 }
 
-/// Weights of columns: what moves with a joint, and how far out it is.
+/// Weights of columns: one over what moves with a joint, and over how far out it is.
 fn weights(system: &System, nodes: &[Node], columns: usize) -> Vec<f64> {
     let n = nodes.len();
     let (mut mass, mut moment) = (vec![0.0; n], vec![0.0; n]);
@@ -252,7 +252,7 @@ fn weights(system: &System, nodes: &[Node], columns: usize) -> Vec<f64> {
                 Kind::Floating => c - nodes[k].columns.start < 3,
                 _ => false,
             };
-            weights[c] = if is_linear { mass[k] } else { moment[k] };
+            weights[c] = 1.0 / if is_linear { mass[k] } else { moment[k] };
         }
         if let Some(i) = nodes[k].inboard {
             let inboard_arm = size(&system.links()[i].joint.outboard);

@@ -36,6 +36,8 @@ pub(super) struct End {
     pub velocity: Vector3<f64>,
     /// `I v`
     pub inertia_turn: Vector3<f64>,
+    /// `L`
+    pub spin: Vector3<f64>,
     /// `w⁻` about the reference point: the body's own, then that of all outboard.
     pub own: Pair,
     pub all: Pair,
@@ -105,6 +107,7 @@ impl Trial {
             axes: [Vector3::zeros(); 3],
             velocity: Vector3::zeros(),
             inertia_turn: Vector3::zeros(),
+            spin: Vector3::zeros(),
             own: Pair::ZERO,
             all: Pair::ZERO,
         };
@@ -236,8 +239,8 @@ impl Trial {
                 let way = turn.displacement(&touch.begin);
                 touch.end = touch.begin + way;
                 let p = place.center + touch.begin;
-                let p_end = p + displacement + of_center + way;
-                touch.force = memory.over_step(floor, *switching, p, p_end, h);
+                let way = displacement + of_center + way;
+                touch.force = memory.over_step(floor, *switching, p, way, h);
                 let half = touch.force.force * (0.5 * h);
                 linear -= half;
                 angular -= touch.begin.cross(&half);
@@ -245,7 +248,6 @@ impl Trial {
         }
         let own = Pair { linear, angular: angular + place.to_center.cross(&linear) };
         let to_center = place.to_center + of_center;
-        let (from_inboard, own) = (from_inboard, own);
         End {
             turn,
             displacement,
@@ -254,6 +256,7 @@ impl Trial {
             axes,
             velocity,
             inertia_turn,
+            spin,
             own,
             all: own,
         }
@@ -266,10 +269,7 @@ impl Trial {
         let load = &step.loads.wrenches[k];
         let mut linear = end.velocity * node.mass + load.linear * half;
         linear.z -= half * node.mass * step.system.gravity();
-        let turn = &end.turn;
-        let mut angular = (end.inertia_turn * turn.c + turn.v.cross(&end.inertia_turn))
-            * (2.0 / step.h)
-            + load.angular * half;
+        let mut angular = end.spin + load.angular * half;
         for touch in &self.touches[node.sites.clone()] {
             let impulse = touch.force.force * half;
             linear += impulse;
