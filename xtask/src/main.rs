@@ -5,6 +5,7 @@
 //! - `firmware`: the firmware's images.
 //! - `budget`: what the firmware takes on its target, against `tests/budgets.toml`.
 //! - `instructions`: instruction counts per call of each algorithm, repeatable to the last digit.
+//! - `peers`: the multibody simulator beside MuJoCo.
 //!
 //! Progress goes to stderr, results to stdout. Exit status: 0 all well, 1 something failed and was
 //! named, 2 bad usage.
@@ -15,6 +16,7 @@ mod budget;
 mod firmware;
 mod image;
 mod instructions;
+mod peers;
 mod step;
 mod test;
 mod workspace;
@@ -40,6 +42,8 @@ enum Chore {
     Budget(budget::Options),
     /// Count the instructions of one call of each algorithm, by callgrind.
     Instructions(instructions::Options),
+    /// Time the multibody simulator beside MuJoCo, on the same models in one run.
+    Peers(peers::Options),
 }
 
 fn main() -> ExitCode {
@@ -48,6 +52,7 @@ fn main() -> ExitCode {
         Chore::Firmware => firmware::run(),
         Chore::Budget(options) => budget::run(&options),
         Chore::Instructions(options) => instructions::run(&options),
+        Chore::Peers(options) => peers::run(&options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -33,8 +33,8 @@ pub trait Moving {
     /// Time and statistics.
     fn progress(&self) -> &Progress;
 
-    /// The longest step foretold for its method, s.
-    fn forecast_s(&self) -> Option<f64>;
+    /// The longest step foretold for its method, s: for the whole motion, or for as it is now.
+    fn forecast_s(&mut self) -> Option<f64>;
 
     /// Coordinates and constraints.
     fn unknowns(&self) -> usize;
@@ -86,7 +86,7 @@ impl<S: Lagrangian<N, C>, const N: usize, const C: usize> Moving for Moved<S, N,
         self.motion.progress()
     }
 
-    fn forecast_s(&self) -> Option<f64> {
+    fn forecast_s(&mut self) -> Option<f64> {
         self.forecast_s
     }
 
@@ -123,8 +123,9 @@ impl Moving for Simulation {
         Self::progress(self)
     }
 
-    fn forecast_s(&self) -> Option<f64> {
-        None
+    fn forecast_s(&mut self) -> Option<f64> {
+        // A singular inertia is the step's to report.
+        self.forecast().ok()?.step_s()
     }
 
     fn unknowns(&self) -> usize {

@@ -49,6 +49,8 @@ pub struct MechanismRun {
     pub wall: Duration,
 }
 
+/// Moments at which the longest step is foretold.
+const FORECASTS: u64 = 10;
 /// Samples at most.
 const SAMPLES: u64 = 4000;
 
@@ -83,7 +85,7 @@ pub fn run_from(
         constraint_max: 0.0,
         progress: *moving.progress(),
         unknowns: moving.unknowns(),
-        forecast_s: moving.forecast_s(),
+        forecast_s: None,
         events: Vec::new(),
         saved: None,
         failure: None,
@@ -92,6 +94,13 @@ pub fn run_from(
     let begun = Instant::now();
     for step in first..=steps.max(first) {
         let is_sample = step % every == 0 || step == steps;
+        if step % steps.div_ceil(FORECASTS) == 0 {
+            let now = moving.forecast_s();
+            run.forecast_s = match (run.forecast_s, now) {
+                (Some(a), Some(b)) => Some(a.min(b)),
+                (a, b) => a.or(b),
+            };
+        }
         if let Err(error) = look(moving.as_mut(), &mut run, is_sample) {
             run.failure = Some(error);
             break;

@@ -21,6 +21,6 @@ pub use closure::{Closing, Closure, ConstraintFunction};
 pub use constrained::{ConstrainedSimulation, Correction, Equations, SingularJoint, TreeEquations};
 pub use joint::{Joint, JointConstraint, MOST_CONSTRAINTS, Rows};
 pub use joint_law::{JointLaw, Stops};
-pub use recursive::{Checkpoint, Simulation};
+pub use recursive::{Checkpoint, Simulation, StepForecast};
 pub use robot::{states_of_tree, system_of_tree};
 pub use system::{Link, Site, System, SystemError};

@@ -1,6 +1,7 @@
 //! §5.4.
 
 mod forces;
+mod limits;
 mod loops;
 mod motion;
 mod oracle;

@@ -9,6 +9,7 @@
 
 mod checkpoint;
 mod elimination;
+mod forecast;
 mod loops;
 mod newton;
 mod node;
@@ -19,4 +20,5 @@ mod stiffness;
 mod turn;
 
 pub use checkpoint::Checkpoint;
+pub use forecast::StepForecast;
 pub use simulation::Simulation;

@@ -16,6 +16,15 @@ impl Simulation {
     /// # Errors
     /// A [`StepError`] where the inertia is singular.
     pub fn column_rates(&mut self) -> Result<&[f64], StepError> {
+        let momenta = std::mem::take(&mut self.at.momenta);
+        let result = self.answer_to(&momenta);
+        self.at.momenta = momenta;
+        result?;
+        Ok(&self.corrections)
+    }
+
+    /// Motions of columns that impulses on them cause where the system is, into `corrections`.
+    pub(super) fn answer_to(&mut self, impulses: &[f64]) -> Result<(), StepError> {
         // For a step of no length impulses are momenta, and motions are velocities.
         let h = self.at.progress.h;
         self.trial.increments.fill(Increment::NONE);
@@ -33,22 +42,21 @@ impl Simulation {
         }
         self.trial.own_slopes.fill(0.0);
         let Self { elimination, nodes, places, trial, at, corrections, loops, .. } = self;
-        let momenta = &at.momenta;
         elimination
             .factor(nodes, places, trial, h)
             .map_err(|joint| singular(&at.progress, joint))?;
-        elimination.solve(nodes, |_| Pair::ZERO, |c| momenta[c], corrections);
+        elimination.solve(nodes, |_| Pair::ZERO, |c| impulses[c], corrections);
         if !loops.is_empty() {
             loops.begin(self.system.closures(), places);
             loops.stand_still();
             loops.factor(nodes, elimination);
-            elimination.solve(nodes, |_| Pair::ZERO, |c| momenta[c], corrections);
+            elimination.solve(nodes, |_| Pair::ZERO, |c| impulses[c], corrections);
             loops.correct(elimination, corrections);
         }
         for x in corrections.iter_mut() {
             *x /= h;
         }
-        Ok(corrections)
+        Ok(())
     }
 
     /// All bodies' rates that belong to the momentum.
