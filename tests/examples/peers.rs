@@ -79,10 +79,8 @@ fn long_run(start: &MotionStart, h: f64) -> Value {
 
 /// A MuJoCo model and its start: `NAME.xml`, `NAME.json`.
 fn write_model(folder: &Path, start: &MotionStart, simulation: &mut Simulation) {
-    let mut xml = format!(
-        "<mujoco><option gravity=\"0 0 {}\"/>\n<worldbody>\n",
-        -start.system.gravity()
-    );
+    let mut xml =
+        format!("<mujoco><option gravity=\"0 0 {}\"/>\n<worldbody>\n", -start.system.gravity());
     if let Some((Floor { dynamic_friction, .. }, _)) = start.system.ground() {
         let _ = writeln!(
             xml,
@@ -135,7 +133,9 @@ fn bodies(xml: &mut String, system: &System, inboard: Option<usize>) {
                 let spring = law.map_or(String::new(), |(_, law)| {
                     let degrees = law.rest.to_degrees();
                     let (stiffness, damping) = (HOLDING.stiffness, HOLDING.damping);
-                    format!(" stiffness=\"{stiffness}\" damping=\"{damping}\" springref=\"{degrees:?}\"")
+                    format!(
+                        " stiffness=\"{stiffness}\" damping=\"{damping}\" springref=\"{degrees:?}\""
+                    )
                 });
                 let _ = writeln!(
                     xml,

@@ -106,7 +106,10 @@ pub fn run(options: &Options) -> Result<()> {
 
 fn print(ours: &Ours, theirs: &Theirs) {
     println!("µs a step of 1 ms, one core; MuJoCo {}", theirs.version);
-    println!("{:<14}{:>10}{:>9}{:>9}{:>14}{:>9}", "model", "surefoot", "(Newton)", "Euler", "implicitfast", "RK4");
+    println!(
+        "{:<14}{:>10}{:>9}{:>9}{:>14}{:>9}",
+        "model", "surefoot", "(Newton)", "Euler", "implicitfast", "RK4"
+    );
     for OurStep { model, us_per_step, newton } in &ours.steps {
         let of = |integrator: &str| {
             let row = theirs.steps.iter().find(|r| r.model == *model && r.integrator == integrator);
@@ -119,15 +122,23 @@ fn print(ours: &Ours, theirs: &Theirs) {
             of("RK4")
         );
     }
-    println!("\nlargest error of energy of the chain of ten over 1e5 of our steps, and computing time a");
-    println!("simulated second; MuJoCo's cheapest run that is at least as accurate, over the same time");
+    println!(
+        "\nlargest error of energy of the chain of ten over 1e5 of our steps, and computing time a"
+    );
+    println!(
+        "simulated second; MuJoCo's cheapest run that is at least as accurate, over the same time"
+    );
     for OurRun { step_s, energy_error_j, computing_s_per_s } in &ours.energy {
-        println!("surefoot at {step_s} s: {energy_error_j:.1e} J, {:.2} ms", 1e3 * computing_s_per_s);
+        println!(
+            "surefoot at {step_s} s: {energy_error_j:.1e} J, {:.2} ms",
+            1e3 * computing_s_per_s
+        );
         for integrator in ["Euler", "implicitfast", "RK4"] {
             let same_time = |row: &&TheirRun| {
                 row.integrator == integrator && (row.seconds / (step_s * 1e5) - 1.0).abs() < 1e-6
             };
-            let as_good = |row: &&TheirRun| row.energy_error_j.is_some_and(|e| e <= *energy_error_j);
+            let as_good =
+                |row: &&TheirRun| row.energy_error_j.is_some_and(|e| e <= *energy_error_j);
             let best = theirs
                 .energy
                 .iter()

@@ -16,8 +16,8 @@ pub mod robots;
 mod single_precision;
 mod tree;
 
-pub(crate) use compile_time::square_root;
 pub use body_shape::BodyShape;
+pub(crate) use compile_time::square_root;
 pub use general_joint::{GeneralJoint, GeneralMotion};
 pub use joint::{Axis, JointKind};
 pub use link::Link;

@@ -116,7 +116,7 @@ fn advance(
     if let Some(SavedRun { torques_on, checkpoint, .. }) = from {
         plant.restore(checkpoint).map_err(|failure| step_failure(0.0, failure))?;
         let made = plant.progress().map_or(0, |progress| progress.steps);
-        if made % steps_per_tick != 0 {
+        if !made.is_multiple_of(steps_per_tick) {
             return Err(not_at_a_tick(made as f64 * step));
         }
         touched |= torques_on;

@@ -110,7 +110,8 @@ impl ContactPoint {
                     result.point.anchor = mean;
                 }
                 let zvt = floor.zero_velocity_threshold;
-                let (u, slope) = if speed <= zvt { (v_t / zvt, 1.0 / zvt) } else { (v_t / speed, 1.0 / speed) };
+                let (u, slope) =
+                    if speed <= zvt { (v_t / zvt, 1.0 / zvt) } else { (v_t / speed, 1.0 / speed) };
                 let radial = if speed <= zvt { 0.0 } else { slope };
                 (-floor.dynamic_friction, u, (slope, radial, 1.0 / h))
             }
@@ -177,7 +178,15 @@ mod tests {
         };
         let mut all = Vec::new();
         for state in [ContactState::Free, ContactState::Sliding, ContactState::Sticking] {
-            for (z0, z1) in [(-2e-3, -1.5e-3), (1e-4, -4e-4), (1e-4, -5e-5), (-3e-4, -2.9e-4), (-2e-3, 1e-4), (-8e-3, 1e-4), (1e-3, 2e-3)] {
+            for (z0, z1) in [
+                (-2e-3, -1.5e-3),
+                (1e-4, -4e-4),
+                (1e-4, -5e-5),
+                (-3e-4, -2.9e-4),
+                (-2e-3, 1e-4),
+                (-8e-3, 1e-4),
+                (1e-3, 2e-3),
+            ] {
                 for step in [2e-3, 3e-7] {
                     for anchor in [1e-3, 0.2] {
                         all.push((
@@ -204,7 +213,10 @@ mod tests {
                     let slope = (at(p1 + d).force - at(p1 - d).force) / 2e-9;
                     let apart = (slope - here.slope.column(j)).norm();
                     let size = here.slope.norm().max(1.0);
-                    assert!(apart < 1e-5 * size, "{switching:?} {point:?} {p0} {p1}: {slope} {here:?}");
+                    assert!(
+                        apart < 1e-5 * size,
+                        "{switching:?} {point:?} {p0} {p1}: {slope} {here:?}"
+                    );
                 }
             }
         }
@@ -252,7 +264,10 @@ mod tests {
                 let StepForce { force, point: after, .. } =
                     point.over_step(&FLOOR, switching, p0, p1 - p0, H);
                 assert!(force.z >= 0.0);
-                assert!(force.xy().norm() <= FLOOR.static_friction * force.z * (1.0 + 1e-12), "{after:?}");
+                assert!(
+                    force.xy().norm() <= FLOOR.static_friction * force.z * (1.0 + 1e-12),
+                    "{after:?}"
+                );
             }
         }
     }

@@ -139,8 +139,7 @@ impl Run {
             Comparison::new("vertex 1 strikes", "s", self.times[first], 0.102)
                 .asked(Asked::PrintedDigits(3)),
             sideways.asked(Asked::Absolute(1e-9)),
-            Comparison::new("at rest from", "s", self.settled_s, 1.3)
-                .asked(Asked::Relative(0.05)),
+            Comparison::new("at rest from", "s", self.settled_s, 1.3).asked(Asked::Relative(0.05)),
         ]
     }
 

@@ -49,7 +49,15 @@ pub struct Progress {
 impl Progress {
     /// At the start.
     pub fn new(h: f64) -> Self {
-        Self { h, time_s: 0.0, steps: 0, iterations: 0, most_iterations: 0, residual: 0.0, split_steps: 0 }
+        Self {
+            h,
+            time_s: 0.0,
+            steps: 0,
+            iterations: 0,
+            most_iterations: 0,
+            residual: 0.0,
+            split_steps: 0,
+        }
     }
 
     /// Newton iterations a step, on average.

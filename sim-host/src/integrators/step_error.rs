@@ -26,6 +26,12 @@ pub enum StepFailure {
     /// motion that went on from it would be another one.
     #[error("the step is too long: its root is on another branch than that of short steps")]
     WrongBranch,
+    /// Too many steps had to be made in shorter ones: those spoil what the method conserves.
+    #[error("the step is too long: {splits} steps so far had to be made in shorter ones")]
+    TooManySplits {
+        /// How many.
+        splits: u64,
+    },
     /// The adaptive method's own steps have become too short or too many.
     #[error("the adaptive method cannot meet its tolerance")]
     Adaptive,

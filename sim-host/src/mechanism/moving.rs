@@ -1,9 +1,9 @@
 //! A mechanism on its way, whatever its size.
 
+use crate::contact::ContactPoint;
 use crate::integrators::{Motion, Progress, StartError, StepError, start_free_body, start_natural};
 use crate::mechanics::systems::{FreeRigidBody, Pendulum, PolarAngles};
 use crate::mechanics::{Chart, Lagrangian, jacobian};
-use crate::contact::ContactPoint;
 use crate::multibody::{Chain, Checkpoint, Simulation, SystemError};
 use crate::plant::StepFailure;
 use crate::scene::{BuildError, Link, Mechanism, MechanismScene};

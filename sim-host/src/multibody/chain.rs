@@ -53,9 +53,7 @@ impl Chain {
                 let constraint = match self.joint {
                     _ if k == 0 && self.floats => JointConstraint::Floating,
                     ChainJoint::Spherical => JointConstraint::Spherical,
-                    ChainJoint::Alternating if k % 2 == 0 => {
-                        JointConstraint::Revolute { axis: x }
-                    }
+                    ChainJoint::Alternating if k % 2 == 0 => JointConstraint::Revolute { axis: x },
                     _ => JointConstraint::Revolute { axis: y },
                 };
                 let at = if inboard.is_some() { [0.0, 0.0, -half] } else { [0.0; 3] };

@@ -66,8 +66,7 @@ impl Closure {
             Closing::Joint(joint) => return joint.rows(outboard, inboard),
             Closing::General(function) => function,
         };
-        let mut rows =
-            Rows { error: [0.0; 6], outboard: [[0.0; 7]; 6], inboard: [[0.0; 7]; 6] };
+        let mut rows = Rows { error: [0.0; 6], outboard: [[0.0; 7]; 6], inboard: [[0.0; 7]; 6] };
         let constraints = self.constraints();
         for i in 0..14 {
             let seeded = |x: &BodyState, first: usize| -> [Dual64; 7] {

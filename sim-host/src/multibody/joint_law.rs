@@ -65,10 +65,11 @@ impl JointLaw {
     /// Energy held at `x`, J.
     pub fn energy(&self, x: f64) -> f64 {
         let spring = 0.5 * self.stiffness * (x - self.rest).powi(2);
-        spring + self.stops.map_or(0.0, |s| {
-            let beyond = (x - s.high).max(0.0) + (x - s.low).min(0.0);
-            0.5 * s.stiffness * beyond * beyond
-        })
+        spring
+            + self.stops.map_or(0.0, |s| {
+                let beyond = (x - s.high).max(0.0) + (x - s.low).min(0.0);
+                0.5 * s.stiffness * beyond * beyond
+            })
     }
 }
 

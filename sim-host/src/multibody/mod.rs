@@ -4,6 +4,7 @@
 //! Body, Joint ─► System ─┬► Simulation: joint coordinates, what every scene with bodies runs on
 //!                        └► ConstrainedSimulation: as the text has it (5.11), (5.13), Alg. 5.1; the oracle
 //! ```
+#![doc = include_str!("../../../docs/your-own-bodies.md")]
 
 mod body;
 mod chain;

@@ -80,7 +80,9 @@ pub enum SystemError {
         value: f64,
     },
     /// A joint cannot have this law.
-    #[error("link {link}: a spring, a damper or stops need a revolute or prismatic joint, and finite numbers, zero or more")]
+    #[error(
+        "link {link}: a spring, a damper or stops need a revolute or prismatic joint, and finite numbers, zero or more"
+    )]
     Law {
         /// Which one.
         link: usize,
@@ -177,7 +179,10 @@ impl System {
     pub fn with_law(mut self, link: usize, law: JointLaw) -> Result<Self, SystemError> {
         let has_one_coordinate = self.links.get(link).is_some_and(|l| {
             let constraint = l.joint.constraint;
-            matches!(constraint, JointConstraint::Revolute { .. } | JointConstraint::Prismatic { .. })
+            matches!(
+                constraint,
+                JointConstraint::Revolute { .. } | JointConstraint::Prismatic { .. }
+            )
         });
         if !(has_one_coordinate && law.is_valid()) {
             return Err(SystemError::Law { link });

@@ -4,7 +4,8 @@ use super::{NV, Observation, Plant, PlantState, StepFailure};
 use crate::contact::{ContactState, Floor, Switching};
 use crate::integrators::Progress;
 use crate::multibody::{
-    Checkpoint, Closing, Closure, Joint, JointConstraint, Simulation, Site, states_of_tree, system_of_tree,
+    Checkpoint, Closing, Closure, Joint, JointConstraint, Simulation, Site, states_of_tree,
+    system_of_tree,
 };
 use nalgebra::Vector3;
 use surefoot::model::robots::biped::{FEET, SoleOutline, TREE};
@@ -35,9 +36,9 @@ impl Variational {
         outline: &SoleOutline,
     ) -> Result<Self, StepFailure> {
         let corners = outline.corners();
-        let sites = FEET.into_iter().flat_map(|foot| {
-            corners.map(|corner| Site { link: foot, position: corner.into() })
-        });
+        let sites = FEET
+            .into_iter()
+            .flat_map(|foot| corners.map(|corner| Site { link: foot, position: corner.into() }));
         let system =
             system_of_tree(&TREE)?.on_floor(floor, Switching::WithinTheStep, sites.collect())?;
         let (states, rates) = states_of_tree(&TREE, &state.positions, &state.velocities)?;

@@ -48,7 +48,7 @@ pub enum Mechanism {
     /// Bodies and joints of one's own.
     Multibody(Multibody),
     /// The biped of §4.1, without a controller or a floor.
-    Biped(Flight),
+    Biped(Box<Flight>),
     /// Equal rods on joints, by the multibody simulator.
     Chain {
         /// How many.

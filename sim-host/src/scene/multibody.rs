@@ -209,7 +209,9 @@ impl Multibody {
         match self.floor {
             Some(floor) => system = system.on_floor(floor, self.switching, sites)?,
             None if !sites.is_empty() => {
-                return Err(wrong("mechanism.floor".to_owned(), "a floor for the contact points").into());
+                return Err(
+                    wrong("mechanism.floor".to_owned(), "a floor for the contact points").into()
+                );
             }
             None => {}
         }
@@ -317,9 +319,8 @@ fn set_velocity(entry: &JointEntry, body: &mut Frame, on: &Frame) {
         }
         JointEntry::Prismatic { axis, rate_m_s } => {
             body.omega = on.omega;
-            body.velocity = on.velocity
-                + on.omega.cross(&(body.center - on.center))
-                + unit(axis) * *rate_m_s;
+            body.velocity =
+                on.velocity + on.omega.cross(&(body.center - on.center)) + unit(axis) * *rate_m_s;
             return;
         }
         JointEntry::Universal { point_m, axes, rates_rad_s } => {

@@ -1,8 +1,8 @@
 //! Experiment 1 on the floor.
 
 use surefoot_sim::closed_loop::{Outcome, Peaks, Run, Scalar, controller, run};
-use surefoot_sim::record::EventKind;
 use surefoot_sim::integrators::Method;
+use surefoot_sim::record::EventKind;
 use surefoot_sim::scene::{Feet, Integrator, Outline, Scene, TorquesFrom, Workspace, load};
 
 fn play(change: impl FnOnce(&mut Scene), scalar: Scalar) -> Run {
@@ -120,7 +120,10 @@ fn the_baseline_plant_agrees() {
                 worst[part] = worst[part].max((a.positions[i] - b.positions[i]).abs());
             }
         }
-        println!("{from:?}: {:.1e} m, {:.1e} rad; {} and {} steps", worst[0], worst[1], ours.steps, baseline.steps);
+        println!(
+            "{from:?}: {:.1e} m, {:.1e} rad; {} and {} steps",
+            worst[0], worst[1], ours.steps, baseline.steps
+        );
         assert!(worst[0] < 2e-3 && worst[1] < 1e-2, "{worst:?}");
         let (a, b) = (Peaks::of(&ours.samples), Peaks::of(&baseline.samples));
         let (a, b) = (a.expect("samples"), b.expect("samples"));

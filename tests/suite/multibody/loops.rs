@@ -65,8 +65,7 @@ fn a_parallelogram_is_a_pendulum() {
     let (s, c) = (0.5 * amplitude).sin_cos();
     let (sin, cos) = amplitude.sin_cos();
     let bar_at = |x: f64| [x - 0.5 * l * sin, 0.0, -0.5 * l * cos, c, 0.0, s, 0.0];
-    let states =
-        [bar_at(-half), bar_at(half), [-l * sin, 0.0, -l * cos, 1.0, 0.0, 0.0, 0.0]];
+    let states = [bar_at(-half), bar_at(half), [-l * sin, 0.0, -l * cos, 1.0, 0.0, 0.0, 0.0]];
     let inertia = 2.0 * (i_bar + m_bar * l * l / 4.0) + m_c * l * l;
     let small = ((2.0 * m_bar * 0.5 + m_c) * g * l / inertia).sqrt();
     let (mut a, mut b) = (1.0, (0.5 * amplitude).cos());

@@ -35,8 +35,7 @@ pub fn slope(points: &[(f64, f64)]) -> (f64, f64) {
     let n = means.len() as f64;
     let mean = means.iter().fold((0.0, 0.0), |s, p| (s.0 + p.0 / n, s.1 + p.1 / n));
     let variance: f64 = means.iter().map(|p| (p.0 - mean.0).powi(2)).sum();
-    let slope =
-        means.iter().map(|p| (p.0 - mean.0) * (p.1 - mean.1)).sum::<f64>() / variance;
+    let slope = means.iter().map(|p| (p.0 - mean.0) * (p.1 - mean.1)).sum::<f64>() / variance;
     let left: f64 = means.iter().map(|p| (p.1 - mean.1 - slope * (p.0 - mean.0)).powi(2)).sum();
     (slope, (left / (n - 2.0) / variance).sqrt())
 }
@@ -154,7 +153,9 @@ fn energy_of_chains_has_no_slope() {
     let slopes: Vec<f64> = std::thread::scope(|scope| {
         let runs = [0, 1].map(|half| {
             scope.spawn(move || -> Vec<f64> {
-                (0..4).map(|k| slope_after_relaxing(0.25 + 0.02 * f64::from(2 * k + half))).collect()
+                (0..4)
+                    .map(|k| slope_after_relaxing(0.25 + 0.02 * f64::from(2 * k + half)))
+                    .collect()
             })
         });
         runs.into_iter().flat_map(|run| run.join().expect("a run")).collect()

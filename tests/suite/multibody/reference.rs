@@ -66,7 +66,8 @@ fn the_simulator_converges_to_forward_dynamics() {
         let still = vec![[0.0; 7]; LINKS];
         let system = CHAIN.system().expect("a system");
         let h = SECONDS / steps as f64;
-        let mut simulation = Simulation::new(system, h, &CHAIN.bent(BEND), &still).expect("a start");
+        let mut simulation =
+            Simulation::new(system, h, &CHAIN.bent(BEND), &still).expect("a start");
         for _ in 0..steps {
             simulation.step().expect("a step");
         }

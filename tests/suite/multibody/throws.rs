@@ -29,8 +29,7 @@ fn is_down(simulation: &Simulation) -> [bool; 8] {
 #[test]
 fn the_box_does_what_is_printed() {
     for switching in [Switching::AtMidpoint, Switching::WithinTheStep] {
-        let mut simulation =
-            Multibody { switching, ..the_box() }.start(1e-3).expect("a start");
+        let mut simulation = Multibody { switching, ..the_box() }.start(1e-3).expect("a start");
         let mut touched = [false; 8];
         let (mut first, mut settled) = (None, 0.0);
         let (mut last_y, mut back) = (0.0_f64, 0.0_f64);
@@ -109,7 +108,7 @@ fn random_throws_come_to_rest() {
                 failures += 1;
                 break;
             }
-            if simulation.progress().steps % 10 > 0 {
+            if !simulation.progress().steps.is_multiple_of(10) {
                 continue;
             }
             gain = gain.max(energy(&mut simulation) / start - 1.0);

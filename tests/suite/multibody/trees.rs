@@ -63,7 +63,11 @@ pub fn mixed_tree(links: usize) -> (System, Vec<BodyState>, Vec<BodyState>) {
             mass: uniform(0.5, 2.0),
             inertia: [uniform(0.02, 0.03), uniform(0.02, 0.03), uniform(0.02, 0.03)],
         };
-        all.push(Link { inboard, joint: Joint { outboard, inboard: at, home: upright, constraint }, body });
+        all.push(Link {
+            inboard,
+            joint: Joint { outboard, inboard: at, home: upright, constraint },
+            body,
+        });
     }
     // Slow enough that sliders do not fly far out.
     let rates = rigid(&states, [0.2, 0.1, -0.3], [0.3, 0.5, -0.2]);

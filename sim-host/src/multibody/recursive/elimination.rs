@@ -6,8 +6,8 @@
 //! taken at its joint, freed of the joint's columns one by one, and handed inboard.
 
 use super::node::{Kind, Node, Place};
-use super::stiffness::{Column, Pair, Stiffness};
 use super::step::{End, Touch, Trial};
+use super::stiffness::{Column, Pair, Stiffness};
 use super::turn::skew;
 use nalgebra::{Matrix3, Vector3};
 
@@ -186,14 +186,7 @@ impl Elimination {
 
 /// A body's own stiffness, and that of the floor under it.
 #[inline]
-fn add_own(
-    part: &mut Stiffness,
-    node: &Node,
-    place: &Place,
-    end: &End,
-    touches: &[Touch],
-    h: f64,
-) {
+fn add_own(part: &mut Stiffness, node: &Node, place: &Place, end: &End, touches: &[Touch], h: f64) {
     // With the end turned by δφ more: δ(c, v) = ½ (−v·δφ, N δφ), N = c 1 − v̂, so that
     // ∂L/∂φ = 1/h [(c I − (I v)^ + v̂ I) N − (I v) vᵀ].
     let (c, v, iv) = (end.turn.c, &end.turn.v, &end.inertia_turn);

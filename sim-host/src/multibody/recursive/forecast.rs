@@ -9,8 +9,8 @@
 
 use super::node::{Increment, Node, Place};
 use super::simulation::Simulation;
-use super::stiffness::Pair;
 use super::step::project;
+use super::stiffness::Pair;
 use crate::integrators::StepError;
 use nalgebra::Vector3;
 
@@ -103,7 +103,7 @@ impl Simulation {
         }
         const EPSILON: f64 = 1e-5;
         // Neighbours in opposite directions, as in the fastest swing, and nothing symmetric about it.
-        let sign = |c: usize| if c % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = |c: usize| if c.is_multiple_of(2) { 1.0 } else { -1.0 };
         let columns = self.at.momenta.len();
         let mut v: Vec<f64> = (0..columns).map(|c| sign(c) + 0.1 * (c as f64).sin()).collect();
         let mut square = 0.0_f64;

@@ -13,8 +13,8 @@ use super::super::system::{System, WORLD};
 use super::super::{BodyState, Rows};
 use super::elimination::Elimination;
 use super::node::{Node, Place};
-use super::stiffness::Pair;
 use super::step::Trial;
+use super::stiffness::Pair;
 use nalgebra::Vector3;
 
 /// All closures' constraints, one after the other.
@@ -109,7 +109,8 @@ impl Loops {
             let (x_i, arm_i) = closure.inboard.map_or((WORLD, Vector3::zeros()), &state);
             let Rows { error, outboard, inboard } = closure.rows(&x_o, &x_i);
             for c in 0..closure.constraints() {
-                let pairs = [tangent(&outboard[c], &x_o, &arm_o), tangent(&inboard[c], &x_i, &arm_i)];
+                let pairs =
+                    [tangent(&outboard[c], &x_o, &arm_o), tangent(&inboard[c], &x_i, &arm_i)];
                 fill(&mut self.rows[next], pairs, error[c]);
                 next += 1;
             }

@@ -2,8 +2,8 @@
 
 use super::node::Place;
 use super::simulation::Simulation;
-use super::stiffness::Pair;
 use super::step::{Step, project};
+use super::stiffness::Pair;
 use crate::integrators::{Progress, StepError, StepFailure};
 use crate::newton::NewtonFailure;
 
@@ -19,6 +19,9 @@ const ROUND_OFF: f64 = 2e-15;
 const FAST: f64 = 1e-2;
 /// Cosine of half the angle by which a body may turn in a step: beyond a quarter turn (2.51) folds.
 const LEAST_TURN: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Steps that may be made in shorter ones: so many, and one of so many.
+const FREE_SPLITS: u64 = 10;
+const STEPS_PER_SPLIT: u64 = 100;
 /// A step that fails is made in 2, 4, … up to 2 to this power.
 const MOST_SPLITS: u32 = 6;
 
@@ -43,7 +46,8 @@ impl Simulation {
             let made = (0..parts).try_for_each(|_| self.advance(h / f64::from(parts)));
             if made.is_ok() {
                 self.at.progress.split_steps += 1;
-                result = Ok(());
+                result = self.bear_splits();
+                break;
             }
         }
         match result {
@@ -56,6 +60,17 @@ impl Simulation {
                 Err(error)
             }
         }
+    }
+
+    /// Shorter steps now and then do no harm; by the dozen they turn the method into another one, whose
+    /// energy grows.
+    fn bear_splits(&self) -> Result<(), StepError> {
+        let progress = &self.at.progress;
+        if progress.split_steps <= FREE_SPLITS + progress.steps / STEPS_PER_SPLIT {
+            return Ok(());
+        }
+        let splits = progress.split_steps;
+        Err(progress.error(StepFailure::TooManySplits { splits }))
     }
 
     fn restore_saved(&mut self) {

@@ -226,9 +226,7 @@ impl Node {
         let given = Quaternion::from_array(at.orientation);
         let orientation = match self.kind {
             Kind::Fixed | Kind::Prismatic => q_i.product(self.home),
-            Kind::Revolute => {
-                q_i.product(self.home).product(turned(&self.axes[0], at.angles[0]))
-            }
+            Kind::Revolute => q_i.product(self.home).product(turned(&self.axes[0], at.angles[0])),
             Kind::Universal => q_i
                 .product(turned(&self.axes[0], at.angles[0]))
                 .product(self.home)

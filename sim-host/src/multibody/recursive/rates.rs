@@ -1,8 +1,8 @@
 //! Velocities and energies, from momenta.
 
 use super::super::body::BodyState;
-use super::node::Increment;
 use super::newton::singular;
+use super::node::Increment;
 use super::simulation::Simulation;
 use super::stiffness::Pair;
 use super::turn::Turn;
@@ -115,5 +115,4 @@ impl Simulation {
         }
         Ok((0.5 * along, weight + in_joints + in_floor))
     }
-
 }

@@ -6,8 +6,8 @@ use super::checkpoint::Checkpoint;
 use super::elimination::Elimination;
 use super::loops::{Loops, MOST};
 use super::node::{Coordinates, Increment, Kind, Node, Place, nodes};
-use super::stiffness::Pair;
 use super::step::{Loads, Trial, project};
+use super::stiffness::Pair;
 use super::turn::Turn;
 use crate::contact::ContactPoint;
 use crate::integrators::Progress;
@@ -262,4 +262,3 @@ fn weights(system: &System, nodes: &[Node], columns: usize) -> Vec<f64> {
     }
     weights
 }
-

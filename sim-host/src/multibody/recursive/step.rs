@@ -128,7 +128,11 @@ impl Trial {
             laws: system
                 .laws()
                 .iter()
-                .map(|(node, law)| Law { node: *node, column: nodes[*node].columns.start, law: *law })
+                .map(|(node, law)| Law {
+                    node: *node,
+                    column: nodes[*node].columns.start,
+                    law: *law,
+                })
                 .collect(),
             own_impulses: vec![0.0; columns],
             own_slopes: vec![0.0; columns],
@@ -281,12 +285,7 @@ impl Trial {
 
 /// A force and its moment about the reference point, along a joint's columns.
 #[inline]
-pub(super) fn project(
-    node: &Node,
-    place: &Place,
-    all: &Pair,
-    along: &mut impl FnMut(usize, f64),
-) {
+pub(super) fn project(node: &Node, place: &Place, all: &Pair, along: &mut impl FnMut(usize, f64)) {
     match node.kind {
         Kind::Fixed => {}
         Kind::Revolute => along(0, place.axes[0].dot(&all.angular)),

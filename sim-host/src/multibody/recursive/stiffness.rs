@@ -57,7 +57,12 @@ impl Column {
 impl Stiffness {
     pub const ZERO: Self = {
         let zero = Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        Self { force_by_place: zero, force_by_turn: zero, moment_by_place: zero, moment_by_turn: zero }
+        Self {
+            force_by_place: zero,
+            force_by_turn: zero,
+            moment_by_place: zero,
+            moment_by_turn: zero,
+        }
     };
 
     /// A body's own about its reference point: mass over the step, and `turning` about the centre of
@@ -114,8 +119,7 @@ impl Stiffness {
         end: &Vector3<f64>,
         own: f64,
     ) -> Option<Column> {
-        let impulse =
-            Pair { linear: self.force_by_turn * end, angular: self.moment_by_turn * end };
+        let impulse = Pair { linear: self.force_by_turn * end, angular: self.moment_by_turn * end };
         let answer = Pair {
             linear: self.moment_by_place.tr_mul(begin),
             angular: self.moment_by_turn.tr_mul(begin),
