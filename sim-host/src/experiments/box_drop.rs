@@ -77,9 +77,9 @@ impl Run {
             let points = self.times.iter().enumerate().map(|(k, t)| (*t, value(k)));
             XySeries::curve(name, points)
         };
-        let coordinates = |first: usize, names: &[&str]| -> Vec<XySeries> {
-            let each = names.iter().enumerate();
-            each.map(|(i, name)| curve(name, &|k| self.states[k][first + i])).collect()
+        let coordinate = |name: &str, i: usize| curve(name, &|k| self.states[k][i]);
+        let panel = |title: &str, name: &str, i: usize| {
+            XyChart::new(title, "time (s)", "m").with(vec![coordinate(name, i)])
         };
         // Each point's states in a row of its own, 8 at the top.
         let states = (0..8_usize)
@@ -94,15 +94,21 @@ impl Run {
             Figure {
                 name: "figure-5.3",
                 reading: READING,
-                chart: XyChart::new("Figure 5.3: centre of mass", "time (s)", "m")
-                    .with(coordinates(0, &["x", "y", "z"])),
+                chart: panel("Figure 5.3: centre of mass", "x", 0)
+                    .below(panel("sideways", "y", 1))
+                    .below(panel("height", "z", 2)),
                 rows: self.motion(),
             },
             Figure {
                 name: "figure-5.4",
                 reading: READING,
-                chart: XyChart::new("Figure 5.4: orientation", "time (s)", "unit quaternion")
-                    .with(coordinates(3, &["scalar", "x", "y", "z"])),
+                chart: XyChart::new("Figure 5.4: orientation", "time (s)", "unit quaternion").with(
+                    ["scalar", "x", "y", "z"]
+                        .iter()
+                        .enumerate()
+                        .map(|(i, name)| coordinate(name, 3 + i))
+                        .collect(),
+                ),
                 rows: self.turn(),
             },
             Figure {

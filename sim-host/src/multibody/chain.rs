@@ -2,7 +2,8 @@
 
 use super::body::{Body, BodyState};
 use super::joint::{Joint, JointConstraint};
-use super::system::{Link, System, SystemError};
+use super::system::{Link, System};
+use super::system_error::SystemError;
 use serde::{Deserialize, Serialize};
 
 /// What joins a chain's rods.

@@ -15,6 +15,7 @@ mod joint_law;
 mod recursive;
 mod robot;
 mod system;
+mod system_error;
 
 pub use body::{Body, BodyState};
 pub use chain::{Chain, ChainJoint};
@@ -24,4 +25,5 @@ pub use joint::{Joint, JointConstraint, MOST_CONSTRAINTS, Rows};
 pub use joint_law::{JointLaw, Stops};
 pub use recursive::{Checkpoint, Simulation, StepForecast};
 pub use robot::{states_of_tree, system_of_tree};
-pub use system::{Link, Site, System, SystemError};
+pub use system::{Link, Site, System};
+pub use system_error::SystemError;

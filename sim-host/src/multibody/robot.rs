@@ -2,7 +2,8 @@
 
 use super::body::{Body, BodyState};
 use super::joint::{Joint, JointConstraint};
-use super::system::{Link, System, SystemError};
+use super::system::{Link, System};
+use super::system_error::SystemError;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use surefoot::dynamics::{DynamicsFault, body_poses, body_velocities, joint_poses};
 use surefoot::model::{JointKind, Tree};

@@ -4,6 +4,7 @@ use super::body::{Body, BodyState};
 use super::closure::Closure;
 use super::joint::{Joint, JointConstraint};
 use super::joint_law::JointLaw;
+use super::system_error::SystemError;
 use crate::contact::{Floor, Switching};
 
 /// A body with the joint that holds it.
@@ -36,112 +37,6 @@ pub struct System {
     ground: Option<(Floor, Switching)>,
     sites: Vec<Site>,
     closures: Vec<Closure>,
-}
-
-/// Why there is no such system, or no such start.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum SystemError {
-    /// A link's inboard body does not come before it.
-    #[error("link {link}: its inboard link {inboard} does not come before it")]
-    Order {
-        /// Which one.
-        link: usize,
-        /// What it names.
-        inboard: usize,
-    },
-    /// A mass or an inertia is none.
-    #[error("link {link}: a mass and three inertias above zero are needed")]
-    Inertia {
-        /// Which one.
-        link: usize,
-    },
-    /// Not a state for each link.
-    #[error("{given} states for {links} links")]
-    Length {
-        /// How many there are.
-        given: usize,
-        /// How many there should be.
-        links: usize,
-    },
-    /// A number is not finite.
-    #[error("link {link}: coordinate {coordinate} or its rate is not finite")]
-    NotFinite {
-        /// Which one.
-        link: usize,
-        /// Which one.
-        coordinate: usize,
-    },
-    /// A start violates a constraint.
-    #[error("link {link}: the start violates a constraint by {value:.1e}")]
-    OffManifold {
-        /// Which one.
-        link: usize,
-        /// By how much, itself or its rate.
-        value: f64,
-    },
-    /// A joint cannot have this law.
-    #[error(
-        "link {link}: a spring, a damper or stops need a revolute or prismatic joint, and finite numbers, zero or more"
-    )]
-    Law {
-        /// Which one.
-        link: usize,
-    },
-    /// A contact site is on no body, or not at finite coordinates.
-    #[error("contact site {site}: a link that exists and finite coordinates are needed")]
-    Site {
-        /// Which one.
-        site: usize,
-    },
-    /// A floor's parameter cannot be used.
-    #[error("the floor's {parameter} is {value}: expected {expected}")]
-    Floor {
-        /// Which one.
-        parameter: &'static str,
-        /// What it is.
-        value: f64,
-        /// What it should be.
-        expected: &'static str,
-    },
-    /// A loop is closed between bodies that are not there, or with itself.
-    #[error("loop {closure}: it must join two links that exist, or one and the world")]
-    Closure {
-        /// Which one.
-        closure: usize,
-    },
-    /// A start violates a loop's constraint.
-    #[error("loop {closure}: the start violates its constraint by {value:.1e}")]
-    OpenLoop {
-        /// Which one.
-        closure: usize,
-        /// By how much, itself or its rate.
-        value: f64,
-    },
-    /// Loops have more constraints than can be solved.
-    #[error("loops have {constraints} constraints, and {most} at most can be solved")]
-    TooManyLoops {
-        /// How many there are.
-        constraints: usize,
-        /// How many there may be.
-        most: usize,
-    },
-    /// Something that the simulator has no model of.
-    #[error("link {link}: {what} is needed")]
-    Unsupported {
-        /// Which one.
-        link: usize,
-        /// What it would take.
-        what: &'static str,
-    },
-    /// A checkpoint of another system, or of another step.
-    #[error("the checkpoint belongs to another system, or to another step")]
-    OtherCheckpoint,
-    /// The step is no time.
-    #[error("a step of {h} s: a positive number is needed")]
-    Step {
-        /// s
-        h: f64,
-    },
 }
 
 /// What the world is to a joint: a body that stands still.

@@ -108,8 +108,10 @@ fn sampled_position_deviation(run: &Run, h: f64) -> f64 {
     worst
 }
 
-/// On the variational plant the loop that its feet close holds to round-off, and errors obey what the
-/// sampled controller asks for, at steps twenty times those that the baseline needs for it.
+/// On the variational plant, in steps of a whole control period of 2 ms, the loop that its feet close holds to
+/// round-off, and errors obey what the sampled controller asks for. (What is left is the controller's: it
+/// holds torques, which are not quite accelerations.) The baseline is some seven times further off, and its
+/// feet drift.
 #[test]
 fn the_variational_plant_obeys_at_large_steps() {
     let deviation = |method, h| {
@@ -120,7 +122,7 @@ fn the_variational_plant_obeys_at_large_steps() {
     let (baseline, _) = deviation(Method::SemiImplicitEuler, 2e-3);
     let (fine, _) = deviation(Method::SemiImplicitEuler, 1e-4);
     println!("2 ms: {ours:.1e}, feet {drift:.1e}; baseline {baseline:.1e}, at 0.1 ms {fine:.1e}");
-    assert!(ours < 5e-3, "{ours}");
+    assert!(ours < 2e-3 && 4.0 * ours < baseline, "{ours} {baseline}");
     assert!(drift < 1e-10, "{drift}");
     let (half, _) = deviation(Method::Variational, 1e-3);
     println!("1 ms: {half:.1e}");

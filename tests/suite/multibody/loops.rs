@@ -88,6 +88,66 @@ fn a_parallelogram_is_a_pendulum() {
     assert!(((coarse / fine).log2() / 2.0 - 2.0).abs() < 0.05, "{coarse} {fine}");
 }
 
+/// A ring of six rods on ball joints, afloat: the loop's impulses act on two bodies alike, so that momenta stay.
+#[test]
+fn a_floating_ring_keeps_its_momenta() {
+    let (side, m) = (0.3, 0.8);
+    let home = [1.0, 0.0, 0.0, 0.0];
+    let body = Body { mass: m, inertia: [1e-3, 7e-3, 7e-3] };
+    // Rods lie along their x axes; the ring is a regular hexagon in the plane z = 0.
+    let corner = |k: usize| {
+        let (sin, cos) = (std::f64::consts::TAU * k as f64 / 6.0).sin_cos();
+        [side * cos, side * sin, 0.0]
+    };
+    let (mut links, mut states) = (Vec::new(), Vec::new());
+    for k in 0..6 {
+        let (a, b) = (corner(k), corner(k + 1));
+        let (s, c) = (0.5 * f64::atan2(b[1] - a[1], b[0] - a[0])).sin_cos();
+        let center: [f64; 3] = std::array::from_fn(|i| 0.5 * (a[i] + b[i]));
+        states.push([center[0], center[1], 0.0, c, 0.0, 0.0, s]);
+        let (outboard, inboard) = ([-0.5 * side, 0.0, 0.0], [0.5 * side, 0.0, 0.0]);
+        let constraint =
+            if k == 0 { JointConstraint::Floating } else { JointConstraint::Spherical };
+        links.push(Link {
+            inboard: k.checked_sub(1),
+            joint: Joint { outboard, inboard, home, constraint },
+            body,
+        });
+    }
+    let closing = Closing::Joint(Joint {
+        outboard: [0.5 * side, 0.0, 0.0],
+        inboard: [-0.5 * side, 0.0, 0.0],
+        home,
+        constraint: JointConstraint::Spherical,
+    });
+    let system = System::new(links, 0.0)
+        .expect("a tree")
+        .with_closure(Closure { outboard: 5, inboard: Some(0), closing })
+        .expect("a ring");
+    let rates = super::trees::rigid(&states, [0.1, 0.0, -0.2], [0.5, 0.9, 1.3]);
+    let mut simulation = Simulation::new(system, 2e-3, &states, &rates).expect("a start");
+    let momenta = |simulation: &mut Simulation| {
+        let rates = simulation.rates().expect("rates");
+        let (linear, angular) = simulation.system().momentum(&simulation.states(), &rates);
+        [linear, angular]
+    };
+    let first = momenta(&mut simulation);
+    let mut drift = 0.0_f64;
+    for _ in 0..10_000 {
+        simulation.step().expect("a step");
+    }
+    for (now, then) in momenta(&mut simulation).iter().zip(&first) {
+        let size = then.iter().map(|m| m * m).sum::<f64>().sqrt();
+        for (a, b) in now.iter().zip(then) {
+            drift = drift.max((a - b).abs() / size);
+        }
+    }
+    let constraint = simulation.system().largest_constraint(&simulation.states());
+    println!("momenta change by {drift:.1e}, constraints {constraint:.1e}");
+    assert!(drift < 1e-9, "{drift}");
+    assert!(constraint < 1e-10, "{constraint}");
+}
+
 /// A bead on an ellipse: a constraint that no joint is.
 #[derive(Debug)]
 struct Ellipse;

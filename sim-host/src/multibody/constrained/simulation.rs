@@ -12,7 +12,8 @@
 //! `[M −Gᵀ; G 0]` with no power of h, where the raw one's condition grows as h⁻².
 
 use super::super::body::BodyState;
-use super::super::system::{System, SystemError, WORLD};
+use super::super::system::{System, WORLD};
+use super::super::system_error::SystemError;
 use super::tree_solver::{Correction, Equations, TreeEquations};
 use super::trial::Trial;
 use crate::integrators::{Progress, StepError, StepFailure};

@@ -1,6 +1,6 @@
 //! All that a motion needs to go on: what it remembers of its past.
 
-use super::node::{Coordinates, Increment};
+use super::coordinates::{Coordinates, Increment};
 use crate::contact::ContactPoint;
 use crate::integrators::Progress;
 use serde::{Deserialize, Serialize};

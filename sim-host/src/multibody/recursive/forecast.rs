@@ -7,7 +7,8 @@
 //! the accelerations' slope at rest. Springs, dampers and the floor are implicit and limit
 //! nothing but accuracy.
 
-use super::node::{Increment, Node, Place};
+use super::coordinates::Increment;
+use super::node::{Node, Place};
 use super::simulation::Simulation;
 use super::step::project;
 use super::stiffness::Pair;

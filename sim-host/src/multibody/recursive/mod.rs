@@ -8,6 +8,7 @@
 //! ```
 
 mod checkpoint;
+mod coordinates;
 mod elimination;
 mod forecast;
 mod loops;

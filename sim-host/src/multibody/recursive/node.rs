@@ -1,11 +1,10 @@
 //! A joint with its outboard body, as the recursions read it.
 
+use super::super::JointConstraint;
 use super::super::system::{Link, System};
-use super::super::{BodyState, Joint, JointConstraint};
+use super::coordinates::Coordinates;
 use super::stiffness::Pair;
-use super::turn::Turn;
 use nalgebra::{Matrix3, Vector3};
-use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use surefoot::spatial::Quaternion;
 
@@ -56,56 +55,6 @@ pub(super) struct Node {
     home: Quaternion<f64>,
     /// Axes in the body that they are fixed to.
     axes: [Vector3<f64>; 2],
-}
-
-/// Where a joint is.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Coordinates {
-    /// Of a revolute or universal joint, rad; of a prismatic one, m.
-    pub angles: [f64; 2],
-    /// Of a floating body's centre of mass, m.
-    pub position: [f64; 3],
-    /// Of a floating body, world from body; of a ball, inboard from outboard.
-    pub orientation: [f64; 4],
-}
-
-/// A joint's motion over a step.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Increment {
-    /// Tangents of half the angles; of a prismatic joint the way, m.
-    pub tangents: [f64; 2],
-    /// Of a floating body, m.
-    pub position: Vector3<f64>,
-    /// Of a floating body or a ball, in world axes at the beginning.
-    pub turn: Turn,
-}
-
-impl Increment {
-    pub const NONE: Self =
-        Self { tangents: [0.0; 2], position: Vector3::new(0.0, 0.0, 0.0), turn: Turn::NONE };
-
-    /// A guess of the next one, in a step `ratio` times as long: that it changes as it did from the one before.
-    pub fn beyond(&self, before: &Self, ratio: f64) -> Self {
-        let now = self.scaled(ratio);
-        let further = ratio * ratio;
-        let beyond = |now: f64, last: f64, before: f64| now + further * (last - before);
-        Self {
-            tangents: std::array::from_fn(|i| {
-                beyond(now.tangents[i], self.tangents[i], before.tangents[i])
-            }),
-            position: now.position + (self.position - before.position) * further,
-            turn: Turn::of_vector(now.turn.v + (self.turn.v - before.turn.v) * further),
-        }
-    }
-
-    /// The same in a step `ratio` times as long.
-    pub fn scaled(&self, ratio: f64) -> Self {
-        Self {
-            tangents: self.tangents.map(|t| t * ratio),
-            position: self.position * ratio,
-            turn: Turn::of_vector(self.turn.v * ratio),
-        }
-    }
 }
 
 /// Where a body is at a step's beginning, in world axes.
@@ -178,47 +127,6 @@ pub(super) fn nodes(system: &System) -> (Vec<Node>, usize) {
 }
 
 impl Node {
-    /// Coordinates that put the body where a state says, as far as the joint lets it.
-    pub fn coordinates(joint: &Joint, state: &BodyState, inboard: &BodyState) -> Coordinates {
-        let q = |x: &BodyState| Quaternion::from_array([x[3], x[4], x[5], x[6]]);
-        let (q_o, q_i, home) = (q(state), q(inboard), Quaternion::from_array(joint.home));
-        let relative = q_i.conjugate().product(q_o);
-        let mut all = Coordinates {
-            angles: [0.0; 2],
-            position: [state[0], state[1], state[2]],
-            orientation: relative.to_array(),
-        };
-        let angle = |turned: Quaternion<f64>, axis: [f64; 3]| {
-            let [s, x, y, z] = turned.to_array();
-            let along = axis[0] * x + axis[1] * y + axis[2] * z;
-            // One of the two quaternions of this orientation turns by less than half a turn.
-            2.0 * f64::atan2(along * 1.0_f64.copysign(s), s.abs())
-        };
-        match joint.constraint {
-            JointConstraint::Fixed | JointConstraint::Spherical => {}
-            JointConstraint::Floating => all.orientation = q_o.to_array(),
-            JointConstraint::Revolute { axis } => {
-                all.angles[0] = angle(home.conjugate().product(relative), axis);
-            }
-            JointConstraint::Prismatic { axis } => {
-                let at = |x: &BodyState, q: Quaternion<f64>, arm: [f64; 3]| {
-                    Vector3::new(x[0], x[1], x[2]) + q.rotate(arm.into())
-                };
-                let apart = at(state, q_o, joint.outboard) - at(inboard, q_i, joint.inboard);
-                all.angles[0] = apart.dot(&q_i.rotate(axis.into()));
-            }
-            JointConstraint::Universal { outboard_axis, inboard_axis } => {
-                let about = Vector3::from(inboard_axis);
-                let from = home.rotate(outboard_axis.into());
-                let to = relative.rotate(outboard_axis.into());
-                let first = f64::atan2(about.dot(&from.cross(&to)), from.dot(&to));
-                let turned = Quaternion::from_axis_angle(about, first).product(home);
-                all.angles = [first, angle(turned.conjugate().product(relative), outboard_axis)];
-            }
-        }
-        all
-    }
-
     /// Where the body is. Angles are taken as they are, so that no error of rounding adds up.
     pub fn place(&self, at: &Coordinates, inboard: &Place) -> Place {
         let turned = |axis: &Vector3<f64>, angle: f64| Quaternion::from_axis_angle(*axis, angle);
@@ -257,60 +165,6 @@ impl Node {
         };
         let inertia = rotation * Matrix3::from_diagonal(&self.inertia) * rotation.transpose();
         Place { orientation, rotation, center, to_center, from_inboard, axes, inertia }
-    }
-
-    /// Where the joint is after a step.
-    pub fn moved(&self, from: &Coordinates, by: &Increment, inboard: &Place) -> Coordinates {
-        let mut to = *from;
-        match self.kind {
-            Kind::Fixed => {}
-            Kind::Revolute | Kind::Universal => {
-                for (angle, tangent) in to.angles.iter_mut().zip(by.tangents) {
-                    *angle += 2.0 * tangent.atan();
-                }
-            }
-            Kind::Prismatic => to.angles[0] += by.tangents[0],
-            Kind::Spherical => {
-                // From world axes to those of the inboard body.
-                let turn = Turn { c: by.turn.c, v: inboard.rotation.tr_mul(&by.turn.v) };
-                to.orientation = turn.turned(from.orientation);
-            }
-            Kind::Floating => {
-                for (x, way) in to.position.iter_mut().zip(by.position.iter()) {
-                    *x += way;
-                }
-                to.orientation = by.turn.turned(from.orientation);
-            }
-        }
-        to
-    }
-}
-
-impl Node {
-    /// An increment with a share of a correction of its end.
-    #[inline]
-    pub fn corrected(&self, base: &Increment, by: &[f64], share: f64) -> Increment {
-        let mut to = *base;
-        // d tan(θ/2) = ½ (1 + tan²(θ/2)) dθ
-        let tangent = |t: f64, by: f64| t + 0.5 * share * (1.0 + t * t) * by;
-        let turned = |by: &[f64]| {
-            Turn::cayley(Vector3::new(by[0], by[1], by[2]) * (0.5 * share)).after(&base.turn)
-        };
-        match self.kind {
-            Kind::Fixed => {}
-            Kind::Revolute => to.tangents[0] = tangent(base.tangents[0], by[0]),
-            Kind::Prismatic => to.tangents[0] += share * by[0],
-            Kind::Universal => {
-                to.tangents[0] = tangent(base.tangents[0], by[0]);
-                to.tangents[1] = tangent(base.tangents[1], by[1]);
-            }
-            Kind::Spherical => to.turn = turned(by),
-            Kind::Floating => {
-                to.position += Vector3::new(by[0], by[1], by[2]) * share;
-                to.turn = turned(&by[3..]);
-            }
-        }
-        to
     }
 
     /// Adds the joint's own motion at these rates to its inboard body's.

@@ -1,8 +1,8 @@
 //! Velocities and energies, from momenta.
 
 use super::super::body::BodyState;
+use super::coordinates::Increment;
 use super::newton::singular;
-use super::node::Increment;
 use super::simulation::Simulation;
 use super::stiffness::Pair;
 use super::turn::Turn;

@@ -1,11 +1,13 @@
 //! A motion: what it is made of, and what can be asked of it.
 
 use super::super::body::BodyState;
-use super::super::system::{System, SystemError, WORLD};
+use super::super::system::{System, WORLD};
+use super::super::system_error::SystemError;
 use super::checkpoint::Checkpoint;
+use super::coordinates::{Coordinates, Increment};
 use super::elimination::Elimination;
 use super::loops::{Loops, MOST};
-use super::node::{Coordinates, Increment, Kind, Node, Place, nodes};
+use super::node::{Kind, Node, Place, nodes};
 use super::step::{Loads, Trial, project};
 use super::stiffness::Pair;
 use super::turn::Turn;

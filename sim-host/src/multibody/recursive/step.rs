@@ -16,7 +16,8 @@
 //! Forces are taken at the points where they act, half at the step's beginning and half at its end, with
 //! the arms of either: then their moment about any point is that of the mean position.
 
-use super::node::{Increment, Kind, Node, Place};
+use super::coordinates::Increment;
+use super::node::{Kind, Node, Place};
 use super::stiffness::Pair;
 use super::turn::Turn;
 use crate::contact::{ContactPoint, StepForce};

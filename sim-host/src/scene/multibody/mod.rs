@@ -1,0 +1,148 @@
+//! Scenes of bodies and joints of one's own.
+//!
+//! Everything is described as it is at the start, in world axes: where bodies are, where joints are, which
+//! way axes point. Joints' angles are counted from there.
+
+mod build;
+
+use crate::contact::{Floor, Switching};
+use crate::multibody::{JointLaw, SystemError};
+use serde::{Deserialize, Serialize};
+
+/// Bodies, joints, and what they touch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Multibody {
+    /// m/s², against z.
+    pub gravity_m_s2: f64,
+    /// Bodies, each after the one it hangs from.
+    pub bodies: Vec<BodyEntry>,
+    /// Joints that close loops.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub loops: Vec<LoopEntry>,
+    /// What contact points can touch; without it nothing of contact is computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub floor: Option<Floor>,
+    /// When points enter and leave the floor.
+    #[serde(default)]
+    pub switching: Switching,
+}
+
+/// A body and the joint that holds it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodyEntry {
+    /// For people, and for other bodies to name.
+    pub name: String,
+    /// The body it hangs from; none for the world.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inboard: Option<String>,
+    /// kg
+    pub mass_kg: f64,
+    /// Principal inertias about the centre of mass, kg·m².
+    pub inertia_kg_m2: [f64; 3],
+    /// Centre of mass, m.
+    pub center_m: [f64; 3],
+    /// Of the principal axes, world from body, scalar first.
+    #[serde(default = "upright")]
+    pub orientation: [f64; 4],
+    /// The joint.
+    pub joint: JointEntry,
+    /// Its spring, damper and stops.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub law: Option<JointLaw>,
+    /// Held in the joint, N·m or N.
+    #[serde(default)]
+    pub torque: f64,
+    /// Points that can touch the floor, in the body's frame, m.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contact_points_m: Vec<[f64; 3]>,
+}
+
+/// A joint, with its velocity.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum JointEntry {
+    /// None: the body is free.
+    Floating {
+        /// Of the centre of mass, m/s.
+        #[serde(default)]
+        velocity_m_s: [f64; 3],
+        /// World axes, rad/s.
+        #[serde(default)]
+        angular_velocity_rad_s: [f64; 3],
+    },
+    /// No motion.
+    Fixed {},
+    /// About an axis through a point.
+    Revolute {
+        /// m
+        point_m: [f64; 3],
+        /// Of any length.
+        axis: [f64; 3],
+        /// rad/s
+        #[serde(default)]
+        rate_rad_s: f64,
+    },
+    /// Along an axis.
+    Prismatic {
+        /// Of any length.
+        axis: [f64; 3],
+        /// m/s
+        #[serde(default)]
+        rate_m_s: f64,
+    },
+    /// About two axes through a point, at a right angle.
+    Universal {
+        /// m
+        point_m: [f64; 3],
+        /// Fixed to the inboard, and to the outboard body.
+        axes: [[f64; 3]; 2],
+        /// rad/s
+        #[serde(default)]
+        rates_rad_s: [f64; 2],
+    },
+    /// About a point.
+    Spherical {
+        /// m
+        point_m: [f64; 3],
+        /// Of the body against its inboard one, world axes, rad/s.
+        #[serde(default)]
+        angular_velocity_rad_s: [f64; 3],
+    },
+}
+
+/// A joint that closes a loop.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LoopEntry {
+    /// The bodies that it joins; the second may be left out for the world.
+    pub between: Vec<String>,
+    /// The joint; its velocity is that of the bodies, and must not be given.
+    pub joint: JointEntry,
+}
+
+fn upright() -> [f64; 4] {
+    [1.0, 0.0, 0.0, 0.0]
+}
+
+/// What is wrong with a description: a field and what was expected.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{field}: expected {expected}")]
+pub struct Misdescribed {
+    /// Which one.
+    pub field: String,
+    /// What it should be.
+    pub expected: String,
+}
+
+/// Why a description gives no motion.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BuildError {
+    /// A field is wrong.
+    #[error(transparent)]
+    Field(#[from] Misdescribed),
+    /// The whole is no system.
+    #[error(transparent)]
+    System(#[from] SystemError),
+}
