@@ -94,7 +94,7 @@ impl Variational {
 impl Plant for Variational {
     fn state(&mut self) -> Result<PlantState, StepFailure> {
         let mut velocities: [f64; NV] = [0.0; NV];
-        velocities.copy_from_slice(self.simulation.column_rates()?);
+        velocities.copy_from_slice(self.simulation.observed_rates()?);
         let base = self.simulation.state(0);
         let q = Quaternion::from_array([base[3], base[4], base[5], base[6]]).conjugate();
         // A body twist, where the simulator has world axes.

@@ -125,6 +125,27 @@ impl Node {
         to
     }
 
+    /// Adds an increment, times a factor, to what there is by column.
+    pub fn add_mean_rates(&self, by: &Increment, factor: f64, rates: &mut [f64]) {
+        let angle = |tangent: f64| 2.0 * tangent.atan() * factor;
+        let turned = by.turn.rotation_vector() * factor;
+        match self.kind {
+            Kind::Fixed => {}
+            Kind::Revolute => rates[0] += angle(by.tangents[0]),
+            Kind::Prismatic => rates[0] += by.tangents[0] * factor,
+            Kind::Universal => {
+                rates[0] += angle(by.tangents[0]);
+                rates[1] += angle(by.tangents[1]);
+            }
+            Kind::Spherical => rates.iter_mut().zip(turned.iter()).for_each(|(r, t)| *r += t),
+            Kind::Floating => {
+                let moved = by.position * factor;
+                let both = moved.iter().chain(turned.iter());
+                rates.iter_mut().zip(both).for_each(|(r, x)| *r += x);
+            }
+        }
+    }
+
     /// An increment with a share of a correction of its end.
     #[inline]
     pub fn corrected(&self, base: &Increment, by: &[f64], share: f64) -> Increment {

@@ -23,6 +23,28 @@ impl Simulation {
         Ok(&self.corrections)
     }
 
+    /// Velocities by column from the last two steps' mean ones, carried on to now; before the first step,
+    /// those of the start. They are of the method's order like those that belong to the momentum. Where a
+    /// stiff damper holds a joint, as the floor holds a foot, the momentum swings to and fro about them: this
+    /// is what encoders see.
+    ///
+    /// # Errors
+    /// As for [`Self::column_rates`].
+    pub fn observed_rates(&mut self) -> Result<&[f64], StepError> {
+        if self.at.progress.steps == 0 {
+            return self.column_rates();
+        }
+        let h = self.at.last_h;
+        let [last, before] = &self.at.last;
+        for (k, node) in self.nodes.iter().enumerate() {
+            let rates = &mut self.corrections[node.columns.clone()];
+            rates.fill(0.0);
+            node.add_mean_rates(&last[k], 1.5 / h, rates);
+            node.add_mean_rates(&before[k], -0.5 / h, rates);
+        }
+        Ok(&self.corrections)
+    }
+
     /// Motions of columns that impulses on them cause where the system is, into `corrections`.
     pub(super) fn answer_to(&mut self, impulses: &[f64]) -> Result<(), StepError> {
         // For a step of no length impulses are momenta, and motions are velocities.

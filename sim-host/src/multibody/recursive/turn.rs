@@ -29,6 +29,15 @@ impl Turn {
         Self { c, v: u * c }
     }
 
+    /// Axis times angle.
+    pub fn rotation_vector(&self) -> Vector3<f64> {
+        let sine = self.v.norm();
+        if sine < 1e-9 {
+            return self.v * 2.0;
+        }
+        self.v * (2.0 * sine.atan2(self.c) / sine)
+    }
+
     /// This one after `first`.
     #[inline]
     pub fn after(&self, first: &Self) -> Self {
