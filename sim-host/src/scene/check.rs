@@ -177,9 +177,9 @@ mod tests {
     fn every_bad_value_is_refused_with_its_place() {
         let text = BUILT_IN[0].text;
         for (from, to, words) in [
-            ("step_s = 5e-5", "step_s = -1e-3", ["integrator.step_s", "above zero"]),
-            ("step_s = 5e-5", "step_s = nan", ["integrator.step_s", "above zero"]),
-            ("step_s = 5e-5", "step_s = 1e-14", ["integrator.step_s", "at most"]),
+            ("step_s = 2e-3", "step_s = -1e-3", ["integrator.step_s", "above zero"]),
+            ("step_s = 2e-3", "step_s = nan", ["integrator.step_s", "above zero"]),
+            ("step_s = 2e-3", "step_s = 1e-14", ["integrator.step_s", "at most"]),
             ("duration_s = 3.0", "duration_s = inf", ["duration_s", "above zero"]),
             ("rate_hz = 500.0", "rate_hz = 0.0", ["controller.rate_hz", "above zero"]),
             ("rate_hz = 500.0", "rate_hz = 30000.0", ["controller.rate_hz", "one tick a step"]),
