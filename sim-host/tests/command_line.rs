@@ -149,11 +149,7 @@ fn a_wrong_scene_file_is_refused_at_its_line() {
             "orientation = [0.5,",
             vec!["set_point.orientation", "norm"],
         ),
-        (
-            "name = \"variational\"",
-            "name = \"leapfrog\"",
-            vec!["leapfrog", "semi-implicit"],
-        ),
+        ("name = \"variational\"", "name = \"leapfrog\"", vec!["leapfrog", "semi-implicit"]),
     ] {
         let path = changed_scene(&folder, &[(line, by)]);
         let (status, _, stderr) = said(&surefoot(&folder, &["run", &path]));

@@ -5,7 +5,7 @@ use surefoot::balance::{Mode, SafetyLimits};
 use surefoot_link::{Sensors, ToTarget, Torques};
 use surefoot_sim::closed_loop::firmware::{Emulator, Target, set_point, settings};
 use surefoot_sim::closed_loop::measured;
-use surefoot_sim::plant::{OnFloor, Plant};
+use surefoot_sim::plant::{Plant, Variational};
 use surefoot_sim::scene::{Feet, Scene, load};
 
 /// Images that `cargo xtask firmware` leaves.
@@ -25,7 +25,7 @@ pub fn target() -> Target {
 /// Experiment 1 with a target in its loop.
 pub struct Bench {
     pub scene: Scene,
-    pub plant: OnFloor,
+    pub plant: Variational,
     pub target: Target,
     pub limits: SafetyLimits<f32>,
     time: f64,
@@ -38,7 +38,8 @@ impl Bench {
         let scene = load("experiment-1").expect("built in");
         arm(&mut target, &scene);
         let Feet::Floor { outline, floor } = &scene.feet else { panic!("it has a floor") };
-        let plant = OnFloor::new(scene.initial.state(), *floor, &outline.sole());
+        let (start, step) = (scene.initial.state(), scene.integrator.step_s);
+        let plant = Variational::on_floor(&start, step, *floor, &outline.sole()).expect("a plant");
         Self { scene, plant, target, limits: SafetyLimits::biped(), time: 0.0, torques: [0.0; 12] }
     }
 
@@ -52,8 +53,8 @@ impl Bench {
     }
 
     /// What the sensors read now.
-    pub fn sensors(&self) -> Sensors {
-        Sensors::from(&measured(self.plant.state()))
+    pub fn sensors(&mut self) -> Sensors {
+        Sensors::from(&measured(&self.plant.state().expect("a state")))
     }
 
     /// What they read at a scene's start.
@@ -72,7 +73,8 @@ impl Bench {
 
     /// One tick whose frame arrives as `spoil` makes it.
     pub fn tick_with_frame(&mut self, spoil: impl FnOnce(Vec<u8>) -> Vec<u8>) -> Torques {
-        let frame = self.target.frame(&ToTarget::Sensors(self.sensors()));
+        let sensors = self.sensors();
+        let frame = self.target.frame(&ToTarget::Sensors(sensors));
         let torques = self.target.tick_raw(&spoil(frame)).expect("an answer");
         self.obey(&torques);
         torques

@@ -40,7 +40,8 @@ fn fades(bench: &mut Bench, before: &Torques, first: &Torques) {
             assert_eq!(*to, *from * share, "{tick} ticks after");
         }
         // The plant collapses meanwhile; its sensors are not to be believed.
-        let torques = bench.target.tick(&bench.sensors()).expect("an answer");
+        let sensors = bench.sensors();
+        let torques = bench.target.tick(&sensors).expect("an answer");
         now = torques;
     }
     assert_eq!(now.mode, Mode::Stopped);
@@ -194,7 +195,8 @@ fn a_brown_out() {
 
         let identity = bench.target.reset(injection).expect("an answer");
         for _ in 0..3 {
-            let torques = bench.target.tick(&bench.sensors()).expect("an answer");
+            let sensors = bench.sensors();
+            let torques = bench.target.tick(&sensors).expect("an answer");
             assert_eq!(torques.mode, Mode::Standby);
             assert_eq!(torques.joint_torques, [[0.0; 6]; 2]);
         }
@@ -211,7 +213,8 @@ fn a_brown_out() {
             assert!(log.stops.is_empty());
         }
         arm(&mut bench.target, &scene);
-        assert_eq!(bench.target.tick(&bench.sensors()).expect("an answer").mode, Mode::Active);
+        let sensors = bench.sensors();
+        assert_eq!(bench.target.tick(&sensors).expect("an answer").mode, Mode::Active);
     }
 }
 
