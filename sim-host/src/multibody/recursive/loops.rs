@@ -117,21 +117,8 @@ impl Loops {
         }
     }
 
-    /// Impulse of the constraints on a body at the beginning: `G⁻ᵀ λ`.
-    pub fn impulse(&self, k: usize, multipliers: &[f64]) -> Pair {
-        let mut sum = Pair::ZERO;
-        for (row, multiplier) in self.rows.iter().zip(multipliers) {
-            for (body, pair) in row.bodies.iter().zip(&row.begin) {
-                if *body == Some(k) {
-                    sum.linear += pair.linear * *multiplier;
-                    sum.angular += pair.angular * *multiplier;
-                }
-            }
-        }
-        sum
-    }
-
-    /// The bodies that constraints act on, each once for each constraint, with the impulse there.
+    /// The bodies that constraints act on, each once for each constraint, with the impulse
+    /// there at the beginning: `G⁻ᵀ λ`.
     pub fn impulses<'a>(
         &'a self,
         multipliers: &'a [f64],
@@ -169,8 +156,7 @@ impl Loops {
                 let mut sum = Pair::ZERO;
                 for (body, pair) in row.bodies.iter().zip(&row.begin) {
                     if *body == Some(k) {
-                        sum.linear -= pair.linear;
-                        sum.angular -= pair.angular;
+                        sum.subtract(pair);
                     }
                 }
                 sum

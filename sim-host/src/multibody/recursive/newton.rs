@@ -2,8 +2,7 @@
 
 use super::node::Place;
 use super::simulation::Simulation;
-use super::step::{Step, project};
-use super::stiffness::Pair;
+use super::step::Step;
 use crate::integrators::{Progress, StepError, StepFailure};
 use crate::newton::NewtonFailure;
 
@@ -162,14 +161,8 @@ impl Simulation {
             }
         }
         let own = |c: usize| momenta[c] + trial.own_impulses[c];
-        if loops.is_empty() {
-            elimination.solve(nodes, |k| trial.ends[k].own, own, corrections);
-        } else {
-            let impulse = |k: usize| {
-                let (own, held) = (trial.ends[k].own, loops.impulse(k, &at.multipliers));
-                Pair { linear: own.linear - held.linear, angular: own.angular - held.angular }
-            };
-            elimination.solve(nodes, impulse, own, corrections);
+        elimination.solve(nodes, |k| trial.ends[k].own, own, corrections);
+        if !loops.is_empty() {
             loops.correct(elimination, corrections);
         }
         Ok(())
@@ -187,7 +180,7 @@ impl Simulation {
         }
     }
 
-    /// Largest residual at the trial, relative to its terms.
+    /// Size of the residuals at the trial, relative to their terms, and the largest error of a loop.
     fn evaluate(&mut self, h: f64) -> f64 {
         let coordinates = &self.at.coordinates;
         let step = Step {
@@ -200,11 +193,10 @@ impl Simulation {
             loads: &self.loads,
             h,
         };
-        self.trial.evaluate(&step);
+        self.trial.evaluate(&step, self.loops.impulses(&self.at.multipliers));
         let mut loop_error = 0.0;
         if !self.loops.is_empty() {
             self.loops.end(self.system.closures(), &self.places, &self.trial);
-            self.subtract_loops();
             loop_error = self.loops.largest_error();
         }
         for end in &self.trial.ends {
@@ -218,22 +210,6 @@ impl Simulation {
             sum += relative * relative;
         }
         sum.sqrt() / self.at.fastest.max(f64::MIN_POSITIVE) + loop_error
-    }
-
-    /// Impulses of loops out of the residuals: those act on all columns inboard.
-    fn subtract_loops(&mut self) {
-        for (body, impulse) in self.loops.impulses(&self.at.multipliers) {
-            let mut all = impulse;
-            let mut at = Some(body);
-            while let Some(k) = at {
-                let (node, place) = (&self.nodes[k], &self.places[k]);
-                let first = node.columns.start;
-                let residuals = &mut self.trial.residuals;
-                project(node, place, &all, &mut |c, along| residuals[first + c] -= along);
-                all.angular += place.from_inboard.cross(&all.linear);
-                at = node.inboard;
-            }
-        }
     }
 
     /// Goes on to the trial's end.

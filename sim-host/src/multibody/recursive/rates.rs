@@ -67,12 +67,13 @@ impl Simulation {
         elimination
             .factor(nodes, places, trial, h)
             .map_err(|joint| singular(&at.progress, joint))?;
-        elimination.solve(nodes, |_| Pair::ZERO, |c| impulses[c], corrections);
         if !loops.is_empty() {
             loops.begin(self.system.closures(), places);
             loops.stand_still();
             loops.factor(nodes, elimination);
-            elimination.solve(nodes, |_| Pair::ZERO, |c| impulses[c], corrections);
+        }
+        elimination.solve(nodes, |_| Pair::ZERO, |c| impulses[c], corrections);
+        if !loops.is_empty() {
             loops.correct(elimination, corrections);
         }
         for x in corrections.iter_mut() {

@@ -150,10 +150,15 @@ impl Trial {
         }
     }
 
-    /// Evaluates (1) at the increments.
-    pub fn evaluate(&mut self, step: &Step) {
+    /// Evaluates (1) at the increments, with the impulses of loops on bodies.
+    pub fn evaluate(&mut self, step: &Step, loops: impl Iterator<Item = (usize, Pair)>) {
         for k in 0..step.nodes.len() {
             self.ends[k] = self.end(step, k);
+        }
+        for (body, impulse) in loops {
+            let end = &mut self.ends[body];
+            end.own.subtract(&impulse);
+            end.all = end.own;
         }
         self.own_forces(step);
         for k in (0..step.nodes.len()).rev() {

@@ -31,6 +31,12 @@ impl Pair {
         self.linear.dot(&other.linear) + self.angular.dot(&other.angular)
     }
 
+    #[inline]
+    pub fn subtract(&mut self, other: &Self) {
+        self.linear -= other.linear;
+        self.angular -= other.angular;
+    }
+
     /// A force taken at another point, `arm` away from the one where it acts.
     #[inline]
     pub fn add_shifted(&mut self, force: &Self, arm: &Vector3<f64>) {
