@@ -205,6 +205,8 @@ fn sample(
         foot_forces: seen.foot_forces,
         contacts: seen.contacts,
         energy: [seen.kinetic_energy, seen.potential_energy],
+        corner_forces: seen.corner_forces,
+        block: seen.block,
     });
     Ok(())
 }

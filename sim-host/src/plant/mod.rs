@@ -14,6 +14,7 @@ pub use welded::Welded;
 use crate::contact::ContactState;
 use crate::integrators::{Progress, StepError};
 use crate::multibody::{Checkpoint, SystemError};
+use crate::record::BlockSample;
 use nalgebra::Vector3;
 use surefoot::dynamics::DynamicsFault;
 
@@ -43,6 +44,10 @@ pub struct Observation {
     /// Contact states by foot and corner (heel −y, heel +y, toe −y, toe +y); `None` where the plant
     /// has no contact points.
     pub contacts: Option<[[ContactState; 4]; 2]>,
+    /// Forces of the floor on the corners, N, world frame; as `contacts`.
+    pub corner_forces: Option<[[[f64; 3]; 4]; 2]>,
+    /// The block that is thrown at the robot; `None` where there is none.
+    pub block: Option<BlockSample>,
     /// Largest violation of a constraint, m or rad; zero where there is none.
     pub constraint: f64,
 }

@@ -26,7 +26,7 @@ pub struct OnFloor {
 struct Touch {
     wrenches: [Wrench<f64>; 13],
     points: [[ContactPoint; CORNERS]; 2],
-    vertical: [f64; 2],
+    corners: [[[f64; 3]; CORNERS]; 2],
     spring_energy: f64,
 }
 
@@ -47,7 +47,7 @@ impl OnFloor {
         let mut touch = Touch {
             wrenches: [Wrench::zero(); 13],
             points: self.points,
-            vertical: [0.0; 2],
+            corners: [[[0.0; 3]; CORNERS]; 2],
             spring_energy: 0.0,
         };
         for (foot, body) in FEET.into_iter().enumerate() {
@@ -59,7 +59,7 @@ impl OnFloor {
                     self.points[foot][corner].evaluate(&self.floor, position, velocity);
                 let in_body = pose.rotation.tr_mul(&force);
                 touch.wrenches[body] += Wrench { force: in_body, torque: arm.cross(&in_body) };
-                touch.vertical[foot] += force.z;
+                touch.corners[foot][corner] = force.into();
                 touch.points[foot][corner] = point;
                 touch.spring_energy += spring_energy;
             }
@@ -116,8 +116,10 @@ impl Plant for OnFloor {
         Ok(Observation {
             kinetic_energy,
             potential_energy: potential + touch.spring_energy,
-            foot_forces: touch.vertical,
+            foot_forces: touch.corners.map(|foot| foot.iter().map(|force| force[2]).sum()),
             contacts: self.contacts(),
+            corner_forces: Some(touch.corners),
+            block: None,
             constraint: 0.0,
         })
     }

@@ -75,19 +75,19 @@ impl Variational {
 
     /// Vertical forces of the ground on the feet in the last step, N.
     fn vertical(&self) -> [f64; 2] {
-        let mut sums = [0.0; 2];
-        if self.is_on_floor {
-            for (n, [_, _, z]) in self.simulation.contact_forces().iter().enumerate() {
-                sums[n / CORNERS] += z;
-            }
-        } else {
-            // Of a weld's constraints the third is the foot's height.
-            let impulses = self.simulation.loop_impulses();
-            for (foot, sum) in sums.iter_mut().enumerate() {
-                *sum = impulses[WELD * foot + 2] / self.simulation.progress().h;
-            }
+        if let Some(feet) = self.corner_forces() {
+            return feet.map(|corners| corners.iter().map(|force| force[2]).sum());
         }
-        sums
+        // Of a weld's constraints the third is the foot's height.
+        let impulses = self.simulation.loop_impulses();
+        [0, 1].map(|foot| impulses[WELD * foot + 2] / self.simulation.progress().h)
+    }
+
+    /// Forces of the floor on the corners in the last step, N.
+    fn corner_forces(&self) -> Option<[[[f64; 3]; CORNERS]; 2]> {
+        let forces = self.simulation.contact_forces();
+        let of = |foot: usize| std::array::from_fn(|corner| forces[CORNERS * foot + corner]);
+        self.is_on_floor.then(|| [of(0), of(1)])
     }
 }
 
@@ -141,6 +141,8 @@ impl Plant for Variational {
             potential_energy,
             foot_forces: self.vertical(),
             contacts: self.contacts(),
+            corner_forces: self.corner_forces(),
+            block: None,
             constraint: self.simulation.system().largest_constraint(&self.simulation.states()),
         })
     }

@@ -117,6 +117,8 @@ impl Plant for Welded {
             potential_energy,
             foot_forces: self.vertical,
             contacts: None,
+            corner_forces: None,
+            block: None,
             constraint: apart.fold(0.0, f64::max),
         })
     }

@@ -85,6 +85,8 @@ mod tests {
             foot_forces: [7.0; 2],
             contacts: Some([[ContactState::Sticking; 4]; 2]),
             energy: [8.0; 2],
+            corner_forces: None,
+            block: None,
         };
         let mut bytes = Vec::new();
         write_csv(&[sample], &mut bytes).expect("a vector takes all");

@@ -36,6 +36,19 @@ pub struct Sample {
     pub contacts: Option<[[ContactState; 4]; 2]>,
     /// Kinetic and potential energy, J.
     pub energy: [f64; 2],
+    /// Mean forces of the floor on the corners since the step before, N, world frame; by foot and corner.
+    pub corner_forces: Option<[[[f64; 3]; 4]; 2]>,
+    /// The thrown block, if there is one.
+    pub block: Option<BlockSample>,
+}
+
+/// A thrown block at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlockSample {
+    /// Centre of mass (m) and orientation (unit quaternion, scalar first), world frame.
+    pub pose: [f64; 7],
+    /// Force on it of the body that it strikes, N, world frame.
+    pub force: [f64; 3],
 }
 
 impl Sample {

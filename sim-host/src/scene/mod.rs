@@ -4,11 +4,15 @@
 
 mod builtin;
 mod check;
+mod disturbance;
+mod hardware;
 mod load;
 mod mechanism;
 mod multibody;
 
 pub use builtin::{BuiltIn, built_in};
+pub use disturbance::{Block, Push, StruckBox};
+pub use hardware::{Acting, JointStops, Sensing};
 pub use load::{AnyScene, SceneError, load, open, parse};
 pub use mechanism::{Flight, Link, MOST_LINKS, Mechanism, MechanismScene};
 pub use multibody::{BodyEntry, BuildError, JointEntry, LoopEntry, Misdescribed, Multibody};
@@ -42,18 +46,15 @@ pub struct Scene {
     /// Pushes against the central body; none unless said.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pushes: Vec<Push>,
-}
-
-/// A force on the central body's centre of mass, for a while.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Push {
-    /// When it begins, s.
-    pub at_s: f64,
-    /// How long it lasts, s.
-    pub duration_s: f64,
-    /// World frame, N.
-    pub force_n: [f64; 3],
+    /// A block thrown at the central body; none unless said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub block: Option<Block>,
+    /// What the sensors get wrong; nothing unless said.
+    #[serde(default, skip_serializing_if = "Sensing::is_ideal")]
+    pub sensing: Sensing,
+    /// What the motors and joints cannot do; nothing unless said.
+    #[serde(default, skip_serializing_if = "Acting::is_ideal")]
+    pub acting: Acting,
 }
 
 impl Scene {

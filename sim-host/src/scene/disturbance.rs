@@ -1,0 +1,46 @@
+//! What disturbs a robot: pushes, and a block that is thrown at it.
+
+use crate::contact::Floor;
+use serde::{Deserialize, Serialize};
+
+/// A force on the central body's centre of mass, for a while.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Push {
+    /// When it begins, s.
+    pub at_s: f64,
+    /// How long it lasts, s.
+    pub duration_s: f64,
+    /// World frame, N.
+    pub force_n: [f64; 3],
+}
+
+/// A free, uniform block that is thrown at the central body: its eight corners, and the centres of its six
+/// faces, strike a box around that body.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Block {
+    /// kg
+    pub mass_kg: f64,
+    /// Edges along x, y and z, m.
+    pub size_m: [f64; 3],
+    /// Centre of mass at t = 0, world frame, m. Its edges are along the world's axes there.
+    pub position_m: [f64; 3],
+    /// Velocity at t = 0, world frame, m/s. It does not turn.
+    pub velocity_mps: [f64; 3],
+    /// The box that it strikes.
+    pub strikes: StruckBox,
+}
+
+/// A box around the central body.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StruckBox {
+    /// Edges along the body's axes, m.
+    pub size_m: [f64; 3],
+    /// Its centre from the body's centre of mass, in the body's axes, m.
+    #[serde(default)]
+    pub offset_m: [f64; 3],
+    /// How its faces yield to each point: the law of §5.2, with the face as the floor.
+    pub surface: Floor,
+}
