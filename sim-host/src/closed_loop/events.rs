@@ -8,6 +8,9 @@ use crate::record::{Event, EventKind};
 pub(super) struct Watch {
     down: [bool; 2],
     slipping: [bool; 2],
+    /// Heel and toe, by foot.
+    ends_down: [[bool; 2]; 2],
+    struck: bool,
 }
 
 const FEET: [&str; 2] = ["left foot", "right foot"];
@@ -44,9 +47,32 @@ impl Watch {
                 (true, false) if down => push(EventKind::SlipEnd),
                 _ => {}
             }
+            let ends = [0, 2].map(|k| points[k..k + 2].iter().any(|s| *s != ContactState::Free));
+            // A foot that comes or goes as a whole has said so.
+            if self.down[foot] && down {
+                let kinds = [
+                    [EventKind::HeelOff, EventKind::HeelDown],
+                    [EventKind::ToeOff, EventKind::ToeDown],
+                ];
+                for ((before, now), [off, on]) in self.ends_down[foot].iter().zip(ends).zip(kinds) {
+                    if *before != now {
+                        push(if now { on } else { off });
+                    }
+                }
+            }
+            self.ends_down[foot] = ends;
             self.down[foot] = down;
             self.slipping[foot] = slipping;
         }
+    }
+
+    /// Appends whether a block's touch has begun or ended since the last look.
+    pub(super) fn look_at_block(&mut self, time_s: f64, struck: bool, events: &mut Vec<Event>) {
+        if struck != self.struck {
+            let kind = if struck { EventKind::Strike } else { EventKind::StrikeEnd };
+            events.push(Event { time_s, kind, place: "central body".to_owned() });
+        }
+        self.struck = struck;
     }
 
     /// Whether a foot is on the floor.

@@ -3,12 +3,12 @@
 use super::events::Watch;
 use super::{Commanded, Controller, Costs, Failure, Outcome};
 use crate::integrators::{Method, Progress};
-use crate::plant::{OnFloor, Plant, PlantState, StepFailure, Variational, Welded};
+use crate::plant::{OnFloor, Plant, PlantState, StepFailure, Struck, Variational, Welded};
 use crate::record::{Event, Sample, SavedRun};
-use crate::scene::{Feet, Scene, TorquesFrom};
+use crate::scene::{Block, Feet, Scene, TorquesFrom};
 use nalgebra::Vector3;
 use std::time::{Duration, Instant};
-use surefoot::spatial::Quaternion;
+use surefoot::spatial::{Quaternion, Wrench};
 
 /// What a run gives.
 #[derive(Clone, Debug)]
@@ -89,13 +89,24 @@ pub fn run_from(
 fn plant(scene: &Scene) -> Result<Box<dyn Plant>, StepFailure> {
     let (start, step) = (scene.initial.state(), scene.integrator.step_s);
     let is_variational = scene.integrator.name == Method::Variational;
-    Ok(match &scene.feet {
-        Feet::Floor { outline, floor } if is_variational => {
-            Box::new(Variational::on_floor(&start, step, *floor, &outline.sole())?)
+    let block = scene.block.as_ref().map(Block::thrown);
+    if is_variational {
+        return Ok(Box::new(match &scene.feet {
+            Feet::Floor { outline, floor } => {
+                Variational::on_floor(&start, step, *floor, &outline.sole(), block.as_ref())?
+            }
+            Feet::Welded {} => Variational::welded(&start, step, block.as_ref())?,
+        }));
+    }
+    let (robot, floor): (Box<dyn Plant>, _) = match &scene.feet {
+        Feet::Floor { outline, floor } => {
+            (Box::new(OnFloor::new(start, *floor, &outline.sole())), Some(*floor))
         }
-        Feet::Welded {} if is_variational => Box::new(Variational::welded(&start, step)?),
-        Feet::Floor { outline, floor } => Box::new(OnFloor::new(start, *floor, &outline.sole())),
-        Feet::Welded {} => Box::new(Welded::new(start)?),
+        Feet::Welded {} => (Box::new(Welded::new(start)?), None),
+    };
+    Ok(match block {
+        Some(block) => Box::new(Struck::new(robot, block, floor)),
+        None => robot,
     })
 }
 
@@ -122,6 +133,7 @@ fn advance(
         touched |= torques_on;
         first = made / steps_per_tick;
         watch = plant.contacts().as_ref().map_or(watch, Watch::from);
+        watch.look_at_block(0.0, plant.is_struck(), &mut Vec::new());
     }
     for tick in first..=ticks {
         let time = (tick * steps_per_tick) as f64 * step;
@@ -141,16 +153,17 @@ fn advance(
             });
             break;
         }
-        let push = scene.push(time);
+        let push = scene.push(time).map(|force| Wrench { force, torque: Vector3::zeros() });
         for _ in 0..steps_per_tick {
             plant
                 .step(step, &command.torques, push)
                 .map_err(|failure| step_failure(time, failure))?;
             run.steps += 1;
+            let made = (first * steps_per_tick + run.steps) as f64 * step;
             if let Some(contacts) = plant.contacts() {
-                let made = first * steps_per_tick + run.steps;
-                watch.look(made as f64 * step, &contacts, &mut run.events);
+                watch.look(made, &contacts, &mut run.events);
             }
+            watch.look_at_block(made, plant.is_struck(), &mut run.events);
         }
     }
     Ok(())
@@ -252,7 +265,9 @@ fn not_at_a_tick(time_s: f64) -> Failure {
 
 fn step_failure(time_s: f64, failure: StepFailure) -> Failure {
     let advice = match failure {
-        StepFailure::Diverged { .. } => "a smaller step, or a softer floor",
+        StepFailure::Diverged { .. } | StepFailure::BlockDiverged { .. } => {
+            "a smaller step, or a softer floor"
+        }
         StepFailure::SingularConstraints => "bend the knees",
         StepFailure::Step(_) => "a smaller step",
         StepFailure::Dynamics(_) | StepFailure::System(_) => "check the initial state",

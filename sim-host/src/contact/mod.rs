@@ -1,4 +1,5 @@
-//! The contact model of §5.2: points against a horizontal floor, each with a state of its own.
+//! The contact model of §5.2: points against a horizontal floor, or the faces of a box, each with a state of
+//! its own.
 //!
 //! [`ContactPoint::evaluate`] gives the force at an instant, for explicit methods;
 //! [`ContactPoint::over_step`] that of a step of an implicit one, with its derivative.
@@ -7,8 +8,10 @@ mod floor;
 mod point;
 mod state;
 mod step_force;
+mod yielding_box;
 
 pub use floor::Floor;
 pub use point::{ContactPoint, PointForce};
 pub use state::{Conditions, ContactState, TRANSITIONS};
 pub use step_force::{StepForce, Switching};
+pub use yielding_box::{BoxForce, BoxPoint, Face, YieldingBox};

@@ -36,11 +36,18 @@ pub struct PointForce {
 
 impl Default for ContactPoint {
     fn default() -> Self {
-        Self { state: ContactState::Free, anchor: Vector2::zeros(), slide: Vector2::zeros() }
+        Self::FREE
     }
 }
 
 impl ContactPoint {
+    /// A point that touches nothing.
+    pub const FREE: Self = Self {
+        state: ContactState::Free,
+        anchor: Vector2::new(0.0, 0.0),
+        slide: Vector2::new(0.0, 0.0),
+    };
+
     /// The force at a position and velocity, with the transitions they cause. The state entered acts
     /// at once; a point entering the floor slides, and may come to rest, in the same evaluation.
     ///

@@ -4,6 +4,7 @@ use super::body::{Body, BodyState};
 use super::closure::Closure;
 use super::joint::{Joint, JointConstraint};
 use super::joint_law::JointLaw;
+use super::striker::Striker;
 use super::system_error::SystemError;
 use crate::contact::{Floor, Switching};
 
@@ -37,6 +38,7 @@ pub struct System {
     ground: Option<(Floor, Switching)>,
     sites: Vec<Site>,
     closures: Vec<Closure>,
+    strikers: Vec<Striker>,
 }
 
 /// What the world is to a joint: a body that stands still.
@@ -64,7 +66,19 @@ impl System {
             ground: None,
             sites: Vec::new(),
             closures: Vec::new(),
+            strikers: Vec::new(),
         })
+    }
+
+    /// With another link, after all others.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn with_link(mut self, link: Link) -> Result<Self, SystemError> {
+        self.links.push(link);
+        let System { links, gravity, laws, ground, sites, closures, strikers } = self;
+        let checked = Self::new(links, gravity)?;
+        Ok(Self { laws, ground, sites, closures, strikers, ..checked })
     }
 
     /// With a spring, damping or stops in the joint of a link.
@@ -124,6 +138,32 @@ impl System {
         }
         self.closures.push(closure);
         Ok(self)
+    }
+
+    /// With a free body that strikes another. Each free body strikes one body at most.
+    ///
+    /// # Errors
+    /// [`SystemError::Striker`], [`SystemError::Floor`] for its surface.
+    pub fn with_striker(mut self, striker: Striker) -> Result<Self, SystemError> {
+        let number = self.strikers.len();
+        let Striker { link, struck, ref around, .. } = striker;
+        if let Some((parameter, value, expected)) = around.surface.invalid() {
+            return Err(SystemError::Floor { parameter, value, expected });
+        }
+        let floats =
+            self.links.get(link).is_some_and(|l| l.joint.constraint == JointConstraint::Floating);
+        let is_leaf = self.links.iter().all(|l| l.inboard != Some(link))
+            && self.strikers.iter().all(|other| other.link != link && other.struck != link);
+        if !(floats && is_leaf && struck < link && striker.is_valid()) {
+            return Err(SystemError::Striker { striker: number });
+        }
+        self.strikers.push(striker);
+        Ok(self)
+    }
+
+    /// Free bodies that strike others.
+    pub fn strikers(&self) -> &[Striker] {
+        &self.strikers
     }
 
     /// Laws of joints, by link.

@@ -55,6 +55,15 @@ pub enum SystemError {
         /// Which one.
         site: usize,
     },
+    /// A striker is no free body after the one that it strikes, or a number of it is not finite.
+    #[error(
+        "striker {striker}: it must be a floating link after the one that it strikes, with nothing on it, and \
+         finite points and a box with a size are needed"
+    )]
+    Striker {
+        /// Which one.
+        striker: usize,
+    },
     /// A floor's parameter cannot be used.
     #[error("the floor's {parameter} is {value}: expected {expected}")]
     Floor {

@@ -3,11 +3,15 @@
 mod configuration;
 mod energies;
 mod on_floor;
+mod struck;
+mod thrown_block;
 mod variational;
 mod welded;
 
 pub use configuration::retract;
 pub use on_floor::OnFloor;
+pub use struck::Struck;
+pub use thrown_block::ThrownBlock;
 pub use variational::Variational;
 pub use welded::Welded;
 
@@ -15,8 +19,8 @@ use crate::contact::ContactState;
 use crate::integrators::{Progress, StepError};
 use crate::multibody::{Checkpoint, SystemError};
 use crate::record::BlockSample;
-use nalgebra::Vector3;
 use surefoot::dynamics::DynamicsFault;
+use surefoot::spatial::{Pose, Wrench};
 
 /// Coordinates of the biped.
 pub const NQ: usize = 19;
@@ -75,6 +79,12 @@ pub enum StepFailure {
         /// Its value.
         value: f64,
     },
+    /// The same of a thrown block.
+    #[error("the block's speed grew to {value:.1e}: the step is too large for its contact")]
+    BlockDiverged {
+        /// m/s or rad/s
+        value: f64,
+    },
 }
 
 /// Speeds beyond this (m/s or rad/s) are taken as divergence: no motion of a person-sized robot has
@@ -90,7 +100,8 @@ pub trait Plant {
     fn state(&mut self) -> Result<PlantState, StepFailure>;
 
     /// Advances by one step of `step_s` seconds under torques (N·m, left leg then right, hip to
-    /// foot), and a force on the central body's centre of mass (N, world frame), if there is one.
+    /// foot), and a load on the central body (force and moment about its centre of mass, world axes), if
+    /// there is one.
     ///
     /// # Errors
     /// A [`StepFailure`]; the state is then that before the step.
@@ -98,11 +109,16 @@ pub trait Plant {
         &mut self,
         step_s: f64,
         torques: &[f64; 12],
-        push: Option<Vector3<f64>>,
+        load: Option<Wrench<f64>>,
     ) -> Result<(), StepFailure>;
 
     /// Contact states after the last step, by foot and corner; `None` where the plant has none.
     fn contacts(&self) -> Option<[[ContactState; 4]; 2]>;
+
+    /// Whether a thrown block touched the central body in the last step.
+    fn is_struck(&self) -> bool {
+        false
+    }
 
     /// Energies, contact and constraints at the present state.
     ///
@@ -139,6 +155,12 @@ fn generalized(torques: &[f64; 12]) -> [f64; NV] {
     let mut all = [0.0; NV];
     all[6..].copy_from_slice(torques);
     all
+}
+
+/// A load on the central body, in its frame.
+fn in_body(load: &Wrench<f64>, pose: &Pose<f64>) -> Wrench<f64> {
+    let turn = |v: &nalgebra::Vector3<f64>| pose.rotation.tr_mul(v);
+    Wrench { force: turn(&load.force), torque: turn(&load.torque) }
 }
 
 fn check_velocities(velocities: &[f64; NV]) -> Result<(), StepFailure> {

@@ -2,7 +2,9 @@
 //! forces at the corners of the soles. It is what most simulators do, kept to compare with.
 
 use super::energies::energies;
-use super::{Observation, Plant, PlantState, StepFailure, check_velocities, generalized, retract};
+use super::{
+    Observation, Plant, PlantState, StepFailure, check_velocities, generalized, in_body, retract,
+};
 use crate::contact::{ContactPoint, ContactState, Floor, PointForce};
 use nalgebra::Vector3;
 use surefoot::dynamics::{body_poses, body_velocities, forward_dynamics, joint_poses};
@@ -77,14 +79,14 @@ impl Plant for OnFloor {
         &mut self,
         step_s: f64,
         torques: &[f64; 12],
-        push: Option<Vector3<f64>>,
+        load: Option<Wrench<f64>>,
     ) -> Result<(), StepFailure> {
         let PlantState { positions, velocities } = self.state;
         let relative = joint_poses(&TREE, &positions)?;
         let poses = body_poses(&TREE, &relative);
         let mut touch = self.touch(&poses, &body_velocities(&TREE, &relative, &velocities));
-        if let Some(push) = push {
-            touch.wrenches[0].force += poses[0].rotation.tr_mul(&push);
+        if let Some(load) = load {
+            touch.wrenches[0] += in_body(&load, &poses[0]);
         }
         let accelerations = forward_dynamics(
             &TREE,

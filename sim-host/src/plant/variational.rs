@@ -1,26 +1,30 @@
 //! The biped on the symplectic simulator of chapter 5: the default plant.
 
-use super::{NV, Observation, Plant, PlantState, StepFailure};
+use super::{NV, Observation, Plant, PlantState, StepFailure, ThrownBlock};
 use crate::contact::{ContactState, Floor, Switching};
 use crate::integrators::Progress;
 use crate::multibody::{
-    Checkpoint, Closing, Closure, Joint, JointConstraint, Simulation, Site, states_of_tree,
+    Checkpoint, Closing, Closure, Joint, JointConstraint, Simulation, Site, System, states_of_tree,
     system_of_tree,
 };
+use crate::record::BlockSample;
 use nalgebra::Vector3;
 use surefoot::model::robots::biped::{FEET, SoleOutline, TREE};
-use surefoot::spatial::Quaternion;
+use surefoot::spatial::{Quaternion, Wrench};
 
 /// Corners of a sole.
 const CORNERS: usize = 4;
 /// Constraints of a welded foot.
 const WELD: usize = 6;
+/// The block's link, after those of the robot.
+const BLOCK: usize = 13;
 
 /// The biped on a floor, or welded to it. Its step is that of its start.
 #[derive(Clone, Debug)]
 pub struct Variational {
     simulation: Simulation,
     is_on_floor: bool,
+    has_block: bool,
 }
 
 impl Variational {
@@ -34,25 +38,31 @@ impl Variational {
         h: f64,
         floor: Floor,
         outline: &SoleOutline,
+        block: Option<&ThrownBlock>,
     ) -> Result<Self, StepFailure> {
         let corners = outline.corners();
-        let sites = FEET
+        let of_feet = FEET
             .into_iter()
             .flat_map(|foot| corners.map(|corner| Site { link: foot, position: corner.into() }));
-        let system =
-            system_of_tree(&TREE)?.on_floor(floor, Switching::WithinTheStep, sites.collect())?;
-        let (states, rates) = states_of_tree(&TREE, &state.positions, &state.velocities)?;
-        let simulation = Simulation::new(system, h, &states, &rates)?;
-        Ok(Self { simulation, is_on_floor: true })
+        let of_block = block.into_iter().flat_map(ThrownBlock::corners);
+        let sites =
+            of_feet.chain(of_block.map(|position| Site { link: BLOCK, position })).collect();
+        let system = system(block)?.on_floor(floor, Switching::WithinTheStep, sites)?;
+        Self::new(state, h, system, block, true)
     }
 
-    /// With both feet held where they start: the loop through the floor is closed by constraints.
+    /// With both feet held where they start: the loop through the floor is closed by constraints. A block
+    /// falls without end, as there is no floor.
     ///
     /// # Errors
     /// As for [`Self::on_floor`].
-    pub fn welded(state: &PlantState, h: f64) -> Result<Self, StepFailure> {
-        let (states, rates) = states_of_tree(&TREE, &state.positions, &state.velocities)?;
-        let mut system = system_of_tree(&TREE)?;
+    pub fn welded(
+        state: &PlantState,
+        h: f64,
+        block: Option<&ThrownBlock>,
+    ) -> Result<Self, StepFailure> {
+        let (states, _) = states_of_tree(&TREE, &state.positions, &state.velocities)?;
+        let mut system = system(block)?;
         for foot in FEET {
             let [x, y, z, s, i, j, k] = states[foot];
             let weld = Joint {
@@ -64,8 +74,23 @@ impl Variational {
             let closing = Closing::Joint(weld);
             system = system.with_closure(Closure { outboard: foot, inboard: None, closing })?;
         }
+        Self::new(state, h, system, block, false)
+    }
+
+    fn new(
+        state: &PlantState,
+        h: f64,
+        system: System,
+        block: Option<&ThrownBlock>,
+        is_on_floor: bool,
+    ) -> Result<Self, StepFailure> {
+        let (mut states, mut rates) = states_of_tree(&TREE, &state.positions, &state.velocities)?;
+        if let Some((state, rate)) = block.map(ThrownBlock::start) {
+            states.push(state);
+            rates.push(rate);
+        }
         let simulation = Simulation::new(system, h, &states, &rates)?;
-        Ok(Self { simulation, is_on_floor: false })
+        Ok(Self { simulation, is_on_floor, has_block: block.is_some() })
     }
 
     /// The simulation.
@@ -91,10 +116,19 @@ impl Variational {
     }
 }
 
+/// The robot, and the block if there is one.
+fn system(block: Option<&ThrownBlock>) -> Result<System, StepFailure> {
+    let robot = system_of_tree(&TREE)?;
+    Ok(match block {
+        Some(block) => robot.with_link(block.link())?.with_striker(block.striker(BLOCK))?,
+        None => robot,
+    })
+}
+
 impl Plant for Variational {
     fn state(&mut self) -> Result<PlantState, StepFailure> {
         let mut velocities: [f64; NV] = [0.0; NV];
-        velocities.copy_from_slice(self.simulation.observed_rates()?);
+        velocities.copy_from_slice(&self.simulation.observed_rates()?[..NV]);
         let base = self.simulation.state(0);
         let q = Quaternion::from_array([base[3], base[4], base[5], base[6]]).conjugate();
         // A body twist, where the simulator has world axes.
@@ -115,13 +149,14 @@ impl Plant for Variational {
         &mut self,
         step_s: f64,
         torques: &[f64; 12],
-        push: Option<Vector3<f64>>,
+        load: Option<Wrench<f64>>,
     ) -> Result<(), StepFailure> {
         debug_assert_eq!(step_s, self.simulation.progress().h);
         for (k, torque) in torques.iter().enumerate() {
             self.simulation.set_torque(k + 1, *torque);
         }
-        self.simulation.set_wrench(0, push.unwrap_or(Vector3::zeros()).into(), [0.0; 3]);
+        let Wrench { force, torque } = load.unwrap_or(Wrench::zero());
+        self.simulation.set_wrench(0, force.into(), torque.into());
         Ok(self.simulation.step()?)
     }
 
@@ -134,6 +169,10 @@ impl Plant for Variational {
         Some(std::array::from_fn(|foot| std::array::from_fn(|corner| state(foot, corner))))
     }
 
+    fn is_struck(&self) -> bool {
+        self.simulation.strikes().iter().any(|point| point.face.is_some())
+    }
+
     fn observe(&mut self) -> Result<Observation, StepFailure> {
         let (kinetic_energy, potential_energy) = self.simulation.energies()?;
         Ok(Observation {
@@ -142,7 +181,10 @@ impl Plant for Variational {
             foot_forces: self.vertical(),
             contacts: self.contacts(),
             corner_forces: self.corner_forces(),
-            block: None,
+            block: self.has_block.then(|| BlockSample {
+                pose: self.simulation.state(BLOCK),
+                force: self.simulation.strike_forces()[0],
+            }),
             constraint: self.simulation.system().largest_constraint(&self.simulation.states()),
         })
     }

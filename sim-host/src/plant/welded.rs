@@ -10,15 +10,16 @@
 
 use super::energies::energies;
 use super::{
-    NV, Observation, Plant, PlantState, StepFailure, check_velocities, generalized, retract,
+    NV, Observation, Plant, PlantState, StepFailure, check_velocities, generalized, in_body,
+    retract,
 };
 use crate::contact::ContactState;
-use nalgebra::{Cholesky, SMatrix, SVector, Vector3};
+use nalgebra::{Cholesky, SMatrix, SVector};
 use surefoot::dynamics::{
     DynamicsFault, bias_forces, body_poses, body_velocities, joint_poses, mass_matrix,
 };
 use surefoot::model::robots::biped::{FEET, TREE};
-use surefoot::spatial::Pose;
+use surefoot::spatial::{Pose, Wrench};
 
 /// Constraints of two welded feet.
 const WELDS: usize = 12;
@@ -53,7 +54,7 @@ impl Plant for Welded {
         &mut self,
         step_s: f64,
         torques: &[f64; 12],
-        push: Option<Vector3<f64>>,
+        load: Option<Wrench<f64>>,
     ) -> Result<(), StepFailure> {
         let PlantState { positions, velocities } = self.state;
         let relative = joint_poses(&TREE, &positions)?;
@@ -75,9 +76,9 @@ impl Plant for Welded {
         let poses = body_poses(&TREE, &relative);
         let mut force = SVector::from(generalized(torques))
             - SVector::from(bias_forces(&TREE, &relative, &velocities, None));
-        if let Some(push) = push {
-            let mut on_body = force.fixed_rows_mut::<3>(0);
-            on_body += poses[0].rotation.tr_mul(&push);
+        if let Some(load) = load {
+            let mut on_body = force.fixed_rows_mut::<6>(0);
+            on_body += SVector::from(in_body(&load, &poses[0]).to_array());
         }
 
         // (2)

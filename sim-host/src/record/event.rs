@@ -26,6 +26,18 @@ pub enum EventKind {
     SlipStart,
     /// No corner of the foot slides any more.
     SlipEnd,
+    /// A heel leaves the floor while its toe stays.
+    HeelOff,
+    /// A heel comes back to the floor.
+    HeelDown,
+    /// A toe leaves the floor while its heel stays.
+    ToeOff,
+    /// A toe comes back to the floor.
+    ToeDown,
+    /// A thrown block strikes the central body.
+    Strike,
+    /// It leaves it.
+    StrikeEnd,
 }
 
 impl std::fmt::Display for EventKind {
@@ -35,6 +47,12 @@ impl std::fmt::Display for EventKind {
             Self::LiftOff => "lifts off",
             Self::SlipStart => "starts to slip",
             Self::SlipEnd => "stops slipping",
+            Self::HeelOff => "raises its heel",
+            Self::HeelDown => "puts its heel down",
+            Self::ToeOff => "raises its toe",
+            Self::ToeDown => "puts its toe down",
+            Self::Strike => "is struck",
+            Self::StrikeEnd => "is left by the block",
         })
     }
 }

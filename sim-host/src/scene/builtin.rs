@@ -12,7 +12,7 @@ pub struct BuiltIn {
 }
 
 /// All built-in scenes.
-pub const BUILT_IN: [BuiltIn; 10] = [
+pub const BUILT_IN: [BuiltIn; 12] = [
     BuiltIn { name: "experiment-1", text: include_str!("../../scenes/experiment-1.toml") },
     BuiltIn {
         name: "experiment-1-pushes",
@@ -21,6 +21,11 @@ pub const BUILT_IN: [BuiltIn; 10] = [
     BuiltIn {
         name: "experiment-1-welded",
         text: include_str!("../../scenes/experiment-1-welded.toml"),
+    },
+    BuiltIn { name: "experiment-2", text: include_str!("../../scenes/experiment-2.toml") },
+    BuiltIn {
+        name: "experiment-2-welded",
+        text: include_str!("../../scenes/experiment-2-welded.toml"),
     },
     BuiltIn { name: "box-drop", text: include_str!("../../scenes/box-drop.toml") },
     BuiltIn { name: "biped-flight", text: include_str!("../../scenes/biped-flight.toml") },

@@ -1,6 +1,7 @@
 //! What disturbs a robot: pushes, and a block that is thrown at it.
 
-use crate::contact::Floor;
+use crate::contact::{Floor, YieldingBox};
+use crate::plant::ThrownBlock;
 use serde::{Deserialize, Serialize};
 
 /// A force on the central body's centre of mass, for a while.
@@ -30,6 +31,22 @@ pub struct Block {
     pub velocity_mps: [f64; 3],
     /// The box that it strikes.
     pub strikes: StruckBox,
+}
+
+impl Block {
+    /// As plants take it.
+    pub fn thrown(&self) -> ThrownBlock {
+        let half = |size: [f64; 3]| size.map(|edge| 0.5 * edge);
+        let StruckBox { size_m, offset_m, surface } = self.strikes;
+        let around = YieldingBox { center: offset_m, half_size: half(size_m), surface };
+        ThrownBlock {
+            mass: self.mass_kg,
+            size: self.size_m,
+            position: self.position_m,
+            velocity: self.velocity_mps,
+            around,
+        }
+    }
 }
 
 /// A box around the central body.

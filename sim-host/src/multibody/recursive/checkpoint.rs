@@ -1,7 +1,7 @@
 //! All that a motion needs to go on: what it remembers of its past.
 
 use super::coordinates::{Coordinates, Increment};
-use crate::contact::ContactPoint;
+use crate::contact::{BoxPoint, ContactPoint};
 use crate::integrators::Progress;
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +21,12 @@ pub struct Checkpoint {
     pub(super) memories: Vec<ContactPoint>,
     /// Mean forces on them in the last step, N.
     pub(super) forces: Vec<[f64; 3]>,
+    /// By striker, point after point.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) strikes: Vec<BoxPoint>,
+    /// Mean forces on strikers in the last step, N.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) strike_forces: Vec<[f64; 3]>,
     /// Largest speed so far, m/s: what residuals are measured by.
     pub(super) fastest: f64,
     pub(super) progress: Progress,
@@ -38,6 +44,8 @@ impl Checkpoint {
         self.multipliers.copy_from_slice(&other.multipliers);
         self.memories.copy_from_slice(&other.memories);
         self.forces.copy_from_slice(&other.forces);
+        self.strikes.copy_from_slice(&other.strikes);
+        self.strike_forces.copy_from_slice(&other.strike_forces);
         self.fastest = other.fastest;
         self.progress = other.progress;
     }
@@ -52,6 +60,7 @@ impl Checkpoint {
                 c.multipliers.len(),
                 c.memories.len(),
                 c.forces.len(),
+                [c.strikes.len(), c.strike_forces.len()],
             )
         };
         sizes(self) == sizes(other) && self.progress.h == other.progress.h

@@ -5,6 +5,7 @@
 //! of a joint there is left what moves. The stiffness of a part of the tree, and the impulse on it, are
 //! taken at its joint, freed of the joint's columns one by one, and handed inboard.
 
+use super::bond::Bond;
 use super::node::{Kind, Node, Place};
 use super::step::{End, Touch, Trial};
 use super::stiffness::{Column, Pair, Stiffness};
@@ -23,6 +24,8 @@ pub(super) struct Elimination {
     motions: Vec<Pair>,
     /// By column: what is left of its equation when its turn comes.
     left: Vec<f64>,
+    /// Free bodies that touch others now, by striker.
+    bonds: Vec<Option<Bond>>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +38,8 @@ const UNITS: [Vector3<f64>; 3] =
     [Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 1.0, 0.0), Vector3::new(0.0, 0.0, 1.0)];
 
 impl Elimination {
-    pub fn new(nodes: usize, columns: usize) -> Self {
+    pub fn new(all: &[Node], columns: usize) -> Self {
+        let nodes = all.len();
         let nothing = [Vector3::zeros(); 3];
         Self {
             columns: vec![Column::NONE; columns],
@@ -47,6 +51,7 @@ impl Elimination {
             impulses: vec![Pair::ZERO; nodes],
             motions: vec![Pair::ZERO; nodes],
             left: vec![0.0; columns],
+            bonds: vec![None; all.iter().filter(|node| node.striker.is_some()).count()],
         }
     }
 
@@ -71,6 +76,17 @@ impl Elimination {
             self.geometry[k] = geometry;
             let part = &mut self.stiffness[k];
             add_own(part, node, place, end, &trial.touches, h);
+            if let Some(number) = node.striker {
+                let strike = &trial.strikes[number];
+                self.bonds[number] = None;
+                if let Some(contact) = strike.stiffness(h) {
+                    let arms = strike.arms(places, &trial.ends);
+                    let (bond, passed) = Bond::new(strike.struck, arms, part, &contact).ok_or(k)?;
+                    self.stiffness[bond.to].add_shifted(&passed, &arms[0], &arms[1]);
+                    self.bonds[number] = Some(bond);
+                    continue;
+                }
+            }
             let first = node.columns.start;
             let slopes = &trial.own_slopes[node.columns.clone()];
             let mut keep = |c: usize, column: Option<Column>| match column {
@@ -131,6 +147,13 @@ impl Elimination {
             let mut z = impulse(k);
             z.linear += self.impulses[k].linear;
             z.angular += self.impulses[k].angular;
+            if let Some(bond) = node.striker.and_then(|number| self.bonds[number].as_ref()) {
+                let first = node.columns.start;
+                z.subtract(&Pair::of_columns(|c| own(first + c)));
+                self.impulses[bond.to].add_shifted(&bond.passed(&z), &bond.arms[0]);
+                self.impulses[k] = z;
+                continue;
+            }
             let axes = &self.geometry[k].axes[0];
             let first = node.columns.start;
             for c in node.columns.clone() {
@@ -154,6 +177,12 @@ impl Elimination {
         }
         for k in 0..nodes.len() {
             let node = &nodes[k];
+            if let Some(bond) = node.striker.and_then(|number| self.bonds[number].as_ref()) {
+                let motion = bond.motion(&self.impulses[k], &self.motions[bond.to]);
+                corrections[node.columns.clone()].copy_from_slice(motion.vector().as_slice());
+                self.motions[k] = motion;
+                continue;
+            }
             let Geometry { axes, from_inboard } = &self.geometry[k];
             let mut motion = match node.inboard {
                 None => Pair::ZERO,

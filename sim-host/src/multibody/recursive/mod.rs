@@ -7,6 +7,7 @@
 //!      └ moved ─ Increment ◄─ corrections ◄─ Elimination ◄── stiffness ◄──────┘
 //! ```
 
+mod bond;
 mod checkpoint;
 mod coordinates;
 mod elimination;
@@ -18,6 +19,7 @@ mod rates;
 mod simulation;
 mod step;
 mod stiffness;
+mod strike;
 mod turn;
 
 pub use checkpoint::Checkpoint;

@@ -2,7 +2,7 @@
 
 use super::node::Place;
 use super::simulation::Simulation;
-use super::step::Step;
+use super::step::{Step, Trial};
 use crate::integrators::{Progress, StepError, StepFailure};
 use crate::newton::NewtonFailure;
 
@@ -84,7 +84,7 @@ impl Simulation {
         for (k, guess) in self.trial.increments.iter_mut().enumerate() {
             *guess = last[k].beyond(&before[k], ratio);
         }
-        self.trial.begin(&self.nodes, &self.places);
+        self.trial.begin(&self.system, &self.nodes, &self.places, self.at.fastest, h);
         if !self.loops.is_empty() {
             self.loops.begin(self.system.closures(), &self.places);
         }
@@ -190,6 +190,7 @@ impl Simulation {
             angles: &|k| coordinates[k].angles[0],
             momenta: &self.at.momenta,
             memories: &self.at.memories,
+            strikes: &self.at.strikes,
             loads: &self.loads,
             h,
         };
@@ -237,11 +238,17 @@ impl Simulation {
             angles: &|k| coordinates[k].angles[0],
             momenta: &[],
             memories: &[],
+            strikes: &[],
             loads: &self.loads,
             h,
         };
         for k in 0..self.nodes.len() {
             self.trial.ends[k].all = self.trial.end_momentum(&step, k, &self.places[k]);
+        }
+        let Trial { strikes, ends, .. } = &mut self.trial;
+        for (strike, force) in strikes.iter().zip(&mut self.at.strike_forces) {
+            strike.add_end_impulses(&self.places, ends, h);
+            *force = strike.remember(&mut self.at.strikes).into();
         }
         let own = std::mem::take(&mut self.trial.own_impulses);
         self.gather_momenta(|c| own[c]);

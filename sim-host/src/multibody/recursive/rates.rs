@@ -5,6 +5,7 @@ use super::coordinates::Increment;
 use super::newton::singular;
 use super::simulation::Simulation;
 use super::stiffness::Pair;
+use super::strike::Strike;
 use super::turn::Turn;
 use crate::integrators::StepError;
 use nalgebra::{Matrix3, Vector3};
@@ -62,6 +63,7 @@ impl Simulation {
         for touch in &mut self.trial.touches {
             touch.force.slope = Matrix3::zeros();
         }
+        self.trial.strikes.iter_mut().for_each(Strike::forget);
         self.trial.own_slopes.fill(0.0);
         let Self { elimination, nodes, places, trial, at, corrections, loops, .. } = self;
         elimination
@@ -136,6 +138,10 @@ impl Simulation {
                 }
             }
         }
-        Ok((0.5 * along, weight + in_joints + in_floor))
+        let strikes = self.trial.strikes.iter().zip(self.system.strikers());
+        let in_boxes: f64 = strikes
+            .map(|(strike, striker)| strike.spring_energy(striker, &self.at.strikes, &self.places))
+            .sum();
+        Ok((0.5 * along, weight + in_joints + in_floor + in_boxes))
     }
 }

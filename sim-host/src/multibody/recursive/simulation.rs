@@ -11,7 +11,7 @@ use super::node::{Kind, Node, Place, nodes};
 use super::step::{Loads, Trial, project};
 use super::stiffness::Pair;
 use super::turn::Turn;
-use crate::contact::ContactPoint;
+use crate::contact::{BoxPoint, ContactPoint};
 use crate::integrators::Progress;
 use nalgebra::Vector3;
 
@@ -74,6 +74,8 @@ impl Simulation {
             multipliers: vec![0.0; loops.len()],
             memories: vec![ContactPoint::default(); system.sites().len()],
             forces: vec![[0.0; 3]; system.sites().len()],
+            strikes: vec![BoxPoint::default(); trial.strikes.last().map_or(0, |s| s.points.end)],
+            strike_forces: vec![[0.0; 3]; trial.strikes.len()],
             fastest: system.gravity().abs() * h,
             progress: Progress::new(h),
         };
@@ -88,7 +90,7 @@ impl Simulation {
             base_multipliers: vec![0.0; loops.len()],
             trial,
             corrections: vec![0.0; columns],
-            elimination: Elimination::new(nodes.len(), columns),
+            elimination: Elimination::new(&nodes, columns),
             loops,
             nodes,
             system,
@@ -176,6 +178,16 @@ impl Simulation {
     /// Mean forces on the contact sites in the last step, N, world frame.
     pub fn contact_forces(&self) -> &[[f64; 3]] {
         &self.at.forces
+    }
+
+    /// Memories of strikers' points, striker after striker.
+    pub fn strikes(&self) -> &[BoxPoint] {
+        &self.at.strikes
+    }
+
+    /// Mean forces of the bodies that they strike on strikers in the last step, N, world frame.
+    pub fn strike_forces(&self) -> &[[f64; 3]] {
+        &self.at.strike_forces
     }
 
     /// Impulses of the loops' constraints in the last step, closure after closure: N·s for points.

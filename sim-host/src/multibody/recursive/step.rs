@@ -19,8 +19,9 @@
 use super::coordinates::Increment;
 use super::node::{Kind, Node, Place};
 use super::stiffness::Pair;
+use super::strike::Strike;
 use super::turn::Turn;
-use crate::contact::{ContactPoint, StepForce};
+use crate::contact::{BoxPoint, ContactPoint, StepForce};
 use crate::multibody::{JointLaw, System};
 use nalgebra::{Matrix3, Vector3};
 
@@ -78,6 +79,7 @@ pub(super) struct Trial {
     pub increments: Vec<Increment>,
     pub ends: Vec<End>,
     pub touches: Vec<Touch>,
+    pub strikes: Vec<Strike>,
     pub laws: Vec<Law>,
     /// By column: `½h τ`, and its derivative.
     pub own_impulses: Vec<f64>,
@@ -94,6 +96,7 @@ pub(super) struct Step<'a> {
     pub angles: &'a dyn Fn(usize) -> f64,
     pub momenta: &'a [f64],
     pub memories: &'a [ContactPoint],
+    pub strikes: &'a [BoxPoint],
     pub loads: &'a Loads,
     pub h: f64,
 }
@@ -126,6 +129,7 @@ impl Trial {
             increments: vec![Increment::NONE; nodes.len()],
             ends: vec![end; nodes.len()],
             touches: system.sites().iter().map(|site| touch(site.position)).collect(),
+            strikes: Strike::all(system),
             laws: system
                 .laws()
                 .iter()
@@ -141,12 +145,22 @@ impl Trial {
         }
     }
 
-    /// Positions of the contact sites, where a step begins.
-    pub fn begin(&mut self, nodes: &[Node], places: &[Place]) {
+    /// Positions of the contact sites and of strikers' points, where a step begins.
+    pub fn begin(
+        &mut self,
+        system: &System,
+        nodes: &[Node],
+        places: &[Place],
+        fastest: f64,
+        h: f64,
+    ) {
         for (node, place) in nodes.iter().zip(places) {
             for touch in &mut self.touches[node.sites.clone()] {
                 touch.begin = place.rotation * touch.arm;
             }
+        }
+        for (strike, striker) in self.strikes.iter_mut().zip(system.strikers()) {
+            strike.begin(striker, places, fastest, h);
         }
     }
 
@@ -154,6 +168,9 @@ impl Trial {
     pub fn evaluate(&mut self, step: &Step, loops: impl Iterator<Item = (usize, Pair)>) {
         for k in 0..step.nodes.len() {
             self.ends[k] = self.end(step, k);
+        }
+        for (strike, striker) in self.strikes.iter_mut().zip(step.system.strikers()) {
+            strike.evaluate(striker, step.strikes, step.places, &mut self.ends, step.h);
         }
         for (body, impulse) in loops {
             let end = &mut self.ends[body];

@@ -2,7 +2,7 @@
 //! one point.
 
 use super::turn::skew;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 /// Change of impulse and moment of impulse for a change of place and of orientation at the step's end.
 /// The arm of the moment is that of the beginning, the arm of the motion that of the end, so that the
@@ -25,6 +25,25 @@ pub(super) struct Pair {
 impl Pair {
     pub const ZERO: Self =
         Self { linear: Vector3::new(0.0, 0.0, 0.0), angular: Vector3::new(0.0, 0.0, 0.0) };
+
+    /// As one column, the linear part first.
+    pub fn vector(&self) -> Vector6<f64> {
+        let (l, a) = (&self.linear, &self.angular);
+        Vector6::new(l.x, l.y, l.z, a.x, a.y, a.z)
+    }
+
+    /// From its six numbers.
+    pub fn of_columns(of: impl Fn(usize) -> f64) -> Self {
+        Self {
+            linear: Vector3::new(of(0), of(1), of(2)),
+            angular: Vector3::new(of(3), of(4), of(5)),
+        }
+    }
+
+    /// From one column.
+    pub fn of_vector(v: &Vector6<f64>) -> Self {
+        Self { linear: v.fixed_rows::<3>(0).into(), angular: v.fixed_rows::<3>(3).into() }
+    }
 
     #[inline]
     pub fn dot(&self, other: &Self) -> f64 {
@@ -70,6 +89,26 @@ impl Stiffness {
             moment_by_turn: zero,
         }
     };
+
+    /// As one matrix, the linear part first.
+    pub fn matrix(&self) -> Matrix6<f64> {
+        let mut all = Matrix6::zeros();
+        all.fixed_view_mut::<3, 3>(0, 0).copy_from(&self.force_by_place);
+        all.fixed_view_mut::<3, 3>(0, 3).copy_from(&self.force_by_turn);
+        all.fixed_view_mut::<3, 3>(3, 0).copy_from(&self.moment_by_place);
+        all.fixed_view_mut::<3, 3>(3, 3).copy_from(&self.moment_by_turn);
+        all
+    }
+
+    /// From one matrix.
+    pub fn of_matrix(all: &Matrix6<f64>) -> Self {
+        Self {
+            force_by_place: all.fixed_view::<3, 3>(0, 0).into(),
+            force_by_turn: all.fixed_view::<3, 3>(0, 3).into(),
+            moment_by_place: all.fixed_view::<3, 3>(3, 0).into(),
+            moment_by_turn: all.fixed_view::<3, 3>(3, 3).into(),
+        }
+    }
 
     /// A body's own about its reference point: mass over the step, and `turning` about the centre of
     /// mass, from which the arms lead.
