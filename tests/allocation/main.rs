@@ -6,7 +6,7 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 use surefoot_sim::multibody::Simulation;
 use surefoot_sim::plant::{Plant, Variational};
-use surefoot_sim::scene::{AnyScene, Feet, Mechanism, open};
+use surefoot_sim::scene::{AnyScene, Block, Feet, Mechanism, open};
 
 #[global_allocator]
 static COUNTING: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
@@ -49,14 +49,15 @@ fn no_step_allocates() {
     count("large steps", || {
         let _ = large.step();
     });
-    for name in ["experiment-1", "experiment-1-welded"] {
+    for name in ["experiment-1", "experiment-1-welded", "experiment-2", "experiment-2-welded"] {
         let AnyScene::Robot(scene) = open(name).expect("built in") else { unreachable!() };
         let start = scene.initial.state();
+        let block = scene.block.as_ref().map(Block::thrown);
         let mut plant = match &scene.feet {
             Feet::Floor { outline, floor } => {
-                Variational::on_floor(&start, 1e-3, *floor, &outline.sole())
+                Variational::on_floor(&start, 1e-3, *floor, &outline.sole(), block.as_ref())
             }
-            Feet::Welded {} => Variational::welded(&start, 1e-3),
+            Feet::Welded {} => Variational::welded(&start, 1e-3, block.as_ref()),
         }
         .expect("a plant");
         // Enough to hold the knees for a while.

@@ -7,9 +7,9 @@
 //! d_i = |a_i − c_i| − b_i        height above the nearer of the two faces across axis i
 //! d   = max d_i                  above the box where it is positive; else the least depth, and its face
 //! ```
-//! A point that is free enters by the face to which it is nearest once it is inside, from a height `d`
-//! before, so that what it feels has no jump. From then on it stays with that face until it leaves it, or
-//! slides over its edge.
+//! A free point that ends a step inside has come through the face whose plane it crossed last, on the
+//! straight line between the step's ends: so the work against that face is what its springs hold. From then
+//! on it stays with that face until it leaves it, or slides over its edge.
 
 use super::{ContactPoint, ContactState, Floor, Switching};
 use nalgebra::{Matrix3, Vector3};
@@ -64,15 +64,39 @@ const NOTHING: BoxForce = BoxForce {
 impl YieldingBox {
     /// `d`, and its face.
     pub fn height(&self, a: &Vector3<f64>) -> (f64, Face) {
-        let mut highest = (f64::NEG_INFINITY, Face { axis: 0, is_upper: true });
-        for axis in 0..3 {
-            let from_center = a[axis] - self.center[axis];
-            let d = from_center.abs() - self.half_size[axis];
-            if d > highest.0 {
-                highest = (d, Face { axis, is_upper: from_center >= 0.0 });
+        let mut highest = self.across(0, a);
+        for axis in 1..3 {
+            let found = self.across(axis, a);
+            if found.0 > highest.0 {
+                highest = found;
             }
         }
         highest
+    }
+
+    /// `d_i`, and the nearer face.
+    fn across(&self, axis: usize, a: &Vector3<f64>) -> (f64, Face) {
+        let from_center = a[axis] - self.center[axis];
+        let face = Face { axis, is_upper: from_center >= 0.0 };
+        (from_center.abs() - self.half_size[axis], face)
+    }
+
+    /// The face by which a point has come inside; none where it is outside at the end.
+    fn entered(&self, a0: &Vector3<f64>, a1: &Vector3<f64>) -> Option<Face> {
+        let (d, nearest) = self.height(a1);
+        if d >= 0.0 {
+            return None;
+        }
+        // When it crossed each plane, as a share of the step. One that was inside before has no such face.
+        let mut last = (0.0, nearest);
+        for axis in 0..3 {
+            let ((before, face), (after, _)) = (self.across(axis, a0), self.across(axis, a1));
+            let crossed = before / (before - after);
+            if before > 0.0 && crossed > last.0 {
+                last = (crossed, face);
+            }
+        }
+        Some(last.1)
     }
 
     /// Radius of the sphere about its centre that holds it, m.
@@ -122,24 +146,15 @@ impl BoxPoint {
         a1: &Vector3<f64>,
         h: f64,
     ) -> BoxForce {
-        let kept = self.kept_face(of, a0);
-        let (contact, face, heights) = match kept {
-            Some(face) => (self.contact, face, None),
-            None => {
-                let ((d0, _), (d1, face)) = (of.height(a0), of.height(a1));
-                if d0 >= 0.0 && d1 >= 0.0 {
-                    return NOTHING;
-                }
-                (ContactPoint::FREE, face, Some((d0, d1)))
-            }
+        let (contact, face) = match self.kept_face(of, a0) {
+            Some(face) => (self.contact, face),
+            None => match of.entered(a0, a1) {
+                Some(face) => (ContactPoint::FREE, face),
+                None => return NOTHING,
+            },
         };
         let axes = YieldingBox::axes(face);
-        let mut p0 = of.on(face, &axes, a0);
-        let mut way = axes.tr_mul(&(a1 - a0));
-        if let Some((d0, d1)) = heights {
-            p0.z = d0;
-            way.z = d1 - d0;
-        }
+        let (p0, way) = (of.on(face, &axes, a0), axes.tr_mul(&(a1 - a0)));
         let step = contact.over_step(&of.surface, switching, p0, way, h);
         BoxForce {
             force: axes * step.force,
@@ -222,13 +237,14 @@ mod tests {
         let point = BoxPoint::default();
         for (a0, a1) in [
             ([0.301, 0.02, 0.1], [0.2985, 0.021, 0.1005]),
-            // Around an edge: outside beyond one face, inside nearest to the other.
-            ([0.301, 0.2999, 0.1], [0.2985, 0.2992, 0.1]),
+            // Around an edge: nearer to one face, but through the other.
+            ([0.301, 0.3005, 0.1], [0.2985, 0.2992, 0.1]),
         ] {
             let (a0, a1) = (Vector3::from(a0), Vector3::from(a1));
             let at = |a: Vector3<f64>| point.over_step(&BOX, Switching::WithinTheStep, &a0, &a, H);
             let here = at(a1);
             assert!(here.force.norm() > 1.0);
+            assert_eq!(here.point.face, Some(Face { axis: 0, is_upper: true }));
             for j in 0..3 {
                 let mut d = Vector3::zeros();
                 d[j] = 1e-9;

@@ -26,6 +26,6 @@ pub use joint::{Joint, JointConstraint, MOST_CONSTRAINTS, Rows};
 pub use joint_law::{JointLaw, Stops};
 pub use recursive::{Checkpoint, Simulation, StepForecast};
 pub use robot::{states_of_tree, system_of_tree};
-pub use striker::Striker;
+pub use striker::{BOX_POINTS, CORNERS, Striker};
 pub use system::{Link, Site, System};
 pub use system_error::SystemError;

@@ -17,19 +17,25 @@ pub struct Striker {
     pub switching: Switching,
 }
 
+/// Corners of a box.
+pub const CORNERS: usize = 8;
+/// Corners of a box and centres of its faces.
+pub const BOX_POINTS: usize = CORNERS + 6;
+
 impl Striker {
-    /// The corners of a box about the body's centre of mass, and the centres of its faces: these meet what a
-    /// face is wider than.
-    pub fn box_points(size: [f64; 3]) -> Vec<[f64; 3]> {
+    /// The corners of a box about the body's centre of mass, and then the centres of its faces, which meet
+    /// what is narrower than a face.
+    pub fn box_points(size: [f64; 3]) -> [[f64; 3]; BOX_POINTS] {
         let half = size.map(|edge| 0.5 * edge);
-        let corner =
-            |k: usize| std::array::from_fn(|i| if k >> i & 1 == 0 { -half[i] } else { half[i] });
-        let face = |k: usize| {
-            let mut center = [0.0; 3];
-            center[k / 2] = if k.is_multiple_of(2) { -half[k / 2] } else { half[k / 2] };
-            center
-        };
-        (0..8).map(corner).chain((0..6).map(face)).collect()
+        std::array::from_fn(|k| match k.checked_sub(CORNERS) {
+            None => std::array::from_fn(|i| if k >> i & 1 == 0 { -half[i] } else { half[i] }),
+            Some(face) => {
+                let (axis, side) = (face / 2, face % 2);
+                let mut center = [0.0; 3];
+                center[axis] = if side == 0 { -half[axis] } else { half[axis] };
+                center
+            }
+        })
     }
 
     /// Whether all its numbers can be used.

@@ -4,6 +4,7 @@
 use super::thrown_block::ThrownBlock;
 use super::{DIVERGED, Observation, Plant, PlantState, StepFailure};
 use crate::contact::{BoxPoint, ContactPoint, ContactState, Floor};
+use crate::multibody::{BOX_POINTS, CORNERS};
 use crate::record::BlockSample;
 use nalgebra::{Matrix3, Vector3};
 use surefoot::model::robots::biped::TREE;
@@ -14,14 +15,14 @@ pub struct Struck {
     robot: Box<dyn Plant>,
     block: ThrownBlock,
     floor: Option<Floor>,
-    points: Vec<Vector3<f64>>,
+    points: [Vector3<f64>; BOX_POINTS],
     position: Vector3<f64>,
     orientation: Quaternion<f64>,
     velocity: Vector3<f64>,
     /// In the block's axes, rad/s.
     angular_velocity: Vector3<f64>,
-    strikes: Vec<BoxPoint>,
-    touches: Vec<ContactPoint>,
+    strikes: [BoxPoint; BOX_POINTS],
+    touches: [ContactPoint; CORNERS],
 }
 
 /// Forces at one state: world axes, moments about the centres of mass.
@@ -31,22 +32,20 @@ struct Forces {
     /// Of the robot on the block, N.
     strike: Vector3<f64>,
     spring_energy: f64,
-    strikes: Vec<BoxPoint>,
-    touches: Vec<ContactPoint>,
+    strikes: [BoxPoint; BOX_POINTS],
+    touches: [ContactPoint; CORNERS],
 }
 
 impl Struck {
     /// A block beside a robot; it lands on the floor, if there is one.
     pub fn new(robot: Box<dyn Plant>, block: ThrownBlock, floor: Option<Floor>) -> Self {
-        let points: Vec<Vector3<f64>> =
-            block.striker(0).points.iter().map(|p| (*p).into()).collect();
         Self {
             robot,
             block,
             floor,
-            strikes: vec![BoxPoint::default(); points.len()],
-            touches: vec![ContactPoint::default(); block.corners().count()],
-            points,
+            strikes: [BoxPoint::default(); BOX_POINTS],
+            touches: [ContactPoint::default(); CORNERS],
+            points: block.points(),
             position: block.position.into(),
             orientation: Quaternion::identity(),
             velocity: block.velocity.into(),
@@ -67,8 +66,8 @@ impl Struck {
             on_robot: Wrench::zero(),
             strike: Vector3::zeros(),
             spring_energy: 0.0,
-            strikes: self.strikes.clone(),
-            touches: self.touches.clone(),
+            strikes: self.strikes,
+            touches: self.touches,
         };
         for (point, memory) in self.points.iter().zip(&mut forces.strikes) {
             let arm = of * point;

@@ -1,7 +1,10 @@
 //! The block that is thrown at the central body.
 
 use crate::contact::{Switching, YieldingBox};
-use crate::multibody::{Body, BodyState, Joint, JointConstraint, Link, Striker};
+use crate::multibody::{
+    BOX_POINTS, Body, BodyState, CORNERS, Joint, JointConstraint, Link, Striker,
+};
+use nalgebra::Vector3;
 
 /// A free, uniform block, and the box around the central body that it strikes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,15 +49,20 @@ impl ThrownBlock {
     pub(super) fn striker(&self, link: usize) -> Striker {
         Striker {
             link,
-            points: Striker::box_points(self.size),
+            points: Striker::box_points(self.size).to_vec(),
             struck: 0,
             around: self.around,
             switching: Switching::WithinTheStep,
         }
     }
 
+    /// Its points that can touch: corners and centres of faces, in its own frame, m.
+    pub fn points(&self) -> [Vector3<f64>; BOX_POINTS] {
+        Striker::box_points(self.size).map(Vector3::from)
+    }
+
     /// Its corners, in its own frame.
     pub(super) fn corners(&self) -> impl Iterator<Item = [f64; 3]> {
-        Striker::box_points(self.size).into_iter().take(8)
+        Striker::box_points(self.size).into_iter().take(CORNERS)
     }
 }

@@ -14,6 +14,7 @@ const MOST_STEPS: f64 = 1e9;
 
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     numbers(scene)?;
+    thrown_block(scene)?;
     timing(scene)?;
     reach(scene)
 }
@@ -84,6 +85,54 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
         && let Some((name, value, expected)) = floor.invalid()
     {
         return Err(wrong(scene, &format!("feet.floor.{name}"), value, expected));
+    }
+    Ok(())
+}
+
+/// A block that can be thrown, and starts outside of what it strikes and above the floor.
+fn thrown_block(scene: &Scene) -> Result<(), SceneError> {
+    let Some(block) = &scene.block else { return Ok(()) };
+    let positive: [(&str, &[f64]); 3] = [
+        ("block.mass_kg", &[block.mass_kg]),
+        ("block.size_m", &block.size_m),
+        ("block.strikes.size_m", &block.strikes.size_m),
+    ];
+    for (field, values) in positive {
+        if !values.iter().all(|x| x.is_finite() && *x > 0.0) {
+            return Err(wrong(scene, field, values, "finite numbers above zero"));
+        }
+    }
+    let finite: [(&str, &[f64]); 3] = [
+        ("block.position_m", &block.position_m),
+        ("block.velocity_mps", &block.velocity_mps),
+        ("block.strikes.offset_m", &block.strikes.offset_m),
+    ];
+    for (field, values) in finite {
+        if !values.iter().all(|x| x.is_finite()) {
+            return Err(wrong(scene, field, values, "finite numbers"));
+        }
+    }
+    if let Some((name, value, expected)) = block.strikes.surface.invalid() {
+        return Err(wrong(scene, &format!("block.strikes.surface.{name}"), value, expected));
+    }
+    let start = scene.initial.state();
+    let [s, x, y, z] = std::array::from_fn(|i| start.positions[3 + i]);
+    let to_body = Quaternion::from_array([s, x, y, z]).conjugate();
+    let thrown = block.thrown();
+    let from_body = Vector3::from(block.position_m) - Vector3::from(scene.initial.position_m);
+    let is_inside = thrown
+        .points()
+        .iter()
+        .any(|point| thrown.around.height(&to_body.rotate(from_body + *point)).0 <= 0.0);
+    if is_inside {
+        let expected = "a block that starts outside of the box that it strikes";
+        return Err(wrong(scene, "block.position_m", block.position_m, expected));
+    }
+    if matches!(scene.feet, Feet::Floor { .. })
+        && thrown.points().iter().any(|point| block.position_m[2] + point.z <= 0.0)
+    {
+        let expected = "a block that starts above the floor";
+        return Err(wrong(scene, "block.position_m", block.position_m, expected));
     }
     Ok(())
 }
@@ -171,6 +220,28 @@ fn reach(scene: &Scene) -> Result<(), SceneError> {
 mod tests {
     use super::super::builtin::BUILT_IN;
     use super::super::parse;
+
+    /// The same of a thrown block.
+    #[test]
+    fn every_bad_block_is_refused_with_its_place() {
+        let text = BUILT_IN.iter().find(|scene| scene.name == "experiment-2").expect("there").text;
+        for (from, to, words) in [
+            ("mass_kg = 1.8", "mass_kg = 0.0", ["block.mass_kg", "above zero"]),
+            ("size_m = [0.08, 0.08", "size_m = [nan, 0.08", ["block.size_m", "above zero"]),
+            ("[-4.5, 0.0, 0.2]", "[inf, 0.0, 0.2]", ["block.velocity_mps", "finite"]),
+            ("[0.50, 0.10, 1.20]", "[0.10, 0.10, 1.20]", ["block.position_m", "outside"]),
+            ("[0.50, 0.10, 1.20]", "[0.50, 0.10, 0.02]", ["block.position_m", "above the floor"]),
+            ("[0.50, 0.10, 1.20]", "[0.50, 0.10]", ["position_m", "3"]),
+            ("= 10000.0", "= -1.0", ["block.strikes.surface", "above zero"]),
+            ("mass_kg = 1.8", "mass_kg = 1.8\nspin = 1", ["unknown field", "`spin`"]),
+        ] {
+            assert!(text.contains(from), "{from}");
+            let error = parse("test", &text.replacen(from, to, 1)).expect_err(to).to_string();
+            for word in words {
+                assert!(error.contains(word), "{to}: {error}");
+            }
+        }
+    }
 
     /// One changed line of a good scene, and words that the error must have.
     #[test]

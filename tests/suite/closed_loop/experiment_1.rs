@@ -12,7 +12,7 @@ fn play(change: impl FnOnce(&mut Scene), scalar: Scalar) -> Run {
     run(&scene, controller(&scene, scalar).as_mut(), &mut |_| {})
 }
 
-fn assert_balanced(run: &Run) {
+pub(super) fn assert_balanced(run: &Run) {
     assert_eq!(run.outcome, Outcome::Balanced, "{:?}", run.failure);
     let last = run.samples.last().expect("samples");
     assert!(last.error_distance() < 1e-3);

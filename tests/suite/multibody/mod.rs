@@ -8,5 +8,6 @@ mod oracle;
 mod reference;
 mod resume;
 mod solver;
+mod strikes;
 mod throws;
 mod trees;
