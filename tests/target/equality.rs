@@ -86,6 +86,11 @@ fn experiment_1_is_the_same_to_the_last_bit() {
 }
 
 #[test]
+fn experiment_2_is_the_same_to_the_last_bit() {
+    plays_equally("experiment-2");
+}
+
+#[test]
 fn twenty_seconds_of_pushes_are_the_same_to_the_last_bit() {
     plays_equally("experiment-1-pushes");
 }

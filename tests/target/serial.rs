@@ -7,7 +7,7 @@ use std::thread::sleep;
 use std::time::Duration;
 use surefoot::balance::Mode;
 use surefoot_link::{Pacing, ToTarget};
-use surefoot_sim::closed_loop::firmware::{SerialPort, Target, settings};
+use surefoot_sim::closed_loop::firmware::{Emulator, SerialPort, Target, settings};
 use surefoot_sim::scene::load;
 
 use crate::bench::{Bench, image, target};
@@ -20,7 +20,7 @@ impl OverUart {
     /// The emulator, and the pseudo-terminal's path.
     pub fn start(name: &str) -> (Self, String) {
         let folder = env!("CARGO_TARGET_TMPDIR");
-        let mut child = Command::new("qemu-system-arm")
+        let mut child = Command::new(Emulator::program())
             .args(["-machine", "netduinoplus2", "-nographic", "-monitor", "none"])
             .args(["-serial", "pty", "-semihosting-config", "enable=on,target=native"])
             .args(["-icount", "shift=4"])

@@ -1,8 +1,9 @@
 //! Debian's packages, where this machine has them.
 
 use crate::step::Step;
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use std::io::{IsTerminal, stdin};
+use std::path::Path;
 
 /// Seconds to wait for the lists of packages.
 const UPDATE_LIMIT: u64 = 300;
@@ -13,6 +14,34 @@ const INSTALL_LIMIT: u64 = 1200;
 pub fn install(package: &str) -> Result<()> {
     update()?;
     apt_get(["install", package], INSTALL_LIMIT).run_silently()
+}
+
+/// Unpacks a package into a folder, with those it depends on that are not installed: for where installing
+/// it would remove what someone has chosen. Nothing of the machine changes.
+pub fn unpack(package: &str, folder: &Path) -> Result<()> {
+    let wanted = ["--print-uris", "--no-install-recommends", "install", package];
+    let plan = Step::new("apt-get", ["-y"]).args(wanted).env("LC_ALL", "C").read()?;
+    let names = plan.lines().filter_map(planned_package);
+    let archives = folder.join("archives");
+    std::fs::create_dir_all(&archives)
+        .with_context(|| format!("cannot make {}", archives.display()))?;
+    let download = Step::new("apt-get", ["download"]).args(names).in_folder(&archives);
+    download.within(INSTALL_LIMIT).run_silently()?;
+    for archive in std::fs::read_dir(&archives)? {
+        let paths = [archive?.path().into_os_string(), folder.into()];
+        let arguments = ["--extract".into()].into_iter().chain(paths);
+        Step::new("dpkg-deb", arguments).run_silently()?;
+    }
+    Ok(std::fs::remove_dir_all(&archives)?)
+}
+
+/// The package that a line of `--print-uris` names: `'http://…' NAME_VERSION_ARCHITECTURE.deb SIZE …`, with
+/// colons as `%3a`.
+fn planned_package(line: &str) -> Option<String> {
+    let file = line.strip_prefix('\'')?.split_whitespace().nth(1)?;
+    let mut parts = file.strip_suffix(".deb")?.split('_');
+    let (name, version) = (parts.next()?, parts.next()?.replace("%3a", ":"));
+    Some(format!("{name}={version}"))
 }
 
 /// Installs packages that must have one version in common: the newest of the first.

@@ -1,8 +1,7 @@
 //! `cargo xtask firmware`: the firmware's images.
 
 use crate::arm_toolchain::ArmToolchain;
-use crate::step::Step;
-use crate::{apt, workspace};
+use crate::{emulator, workspace};
 use anyhow::{Context, Result};
 use std::path::PathBuf;
 
@@ -61,22 +60,10 @@ pub fn build(arm: &ArmToolchain) -> Result<()> {
 
 /// Builds all images, and says where they are.
 pub fn run() -> Result<()> {
-    provide_emulator()?;
+    emulator::provide()?;
     build(&ArmToolchain::provide()?)?;
     for variant in Variant::ALL {
         println!("{}", variant.path().display());
     }
     Ok(())
-}
-
-/// # Returns
-/// The version of the emulator that this machine has, or is given.
-pub fn provide_emulator() -> Result<String> {
-    let version = Step::new("qemu-system-arm", ["--version"]);
-    if !version.succeeds() {
-        apt::install("qemu-system-arm").context(
-            "the firmware runs in QEMU's emulator for Arm, which is not installed and cannot be",
-        )?;
-    }
-    Ok(version.read()?.lines().next().unwrap_or_default().to_owned())
 }

@@ -13,6 +13,7 @@
 mod apt;
 mod arm_toolchain;
 mod budget;
+mod emulator;
 mod firmware;
 mod image;
 mod instructions;

@@ -4,6 +4,7 @@ use crate::workspace;
 use anyhow::{Context, Result, anyhow, bail};
 use std::ffi::OsString;
 use std::fmt;
+use std::path::{Path, PathBuf};
 use std::process::Output;
 use std::time::Duration;
 
@@ -20,6 +21,7 @@ pub struct Step {
     program: OsString,
     arguments: Vec<OsString>,
     environment: Vec<(&'static str, OsString)>,
+    folder: PathBuf,
     limit: Duration,
 }
 
@@ -33,6 +35,7 @@ impl Step {
             program: program.into(),
             arguments: arguments.into_iter().map(Into::into).collect(),
             environment: Vec::new(),
+            folder: workspace::root().to_owned(),
             limit: DEFAULT_LIMIT,
         }
     }
@@ -40,6 +43,12 @@ impl Step {
     /// Sets an environment variable.
     pub fn env(mut self, name: &'static str, value: impl Into<OsString>) -> Self {
         self.environment.push((name, value.into()));
+        self
+    }
+
+    /// Runs in another folder than the workspace's.
+    pub fn in_folder(mut self, folder: &Path) -> Self {
+        folder.clone_into(&mut self.folder);
         self
     }
 
@@ -91,7 +100,7 @@ impl Step {
     }
 
     fn expression(&self) -> duct::Expression {
-        let command = duct::cmd(&self.program, &self.arguments).dir(workspace::root());
+        let command = duct::cmd(&self.program, &self.arguments).dir(&self.folder);
         let command = command.unchecked().stdin_null();
         self.environment.iter().fold(command, |command, (name, value)| command.env(name, value))
     }

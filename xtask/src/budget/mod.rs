@@ -5,7 +5,8 @@ mod cycles;
 mod trace;
 
 use crate::arm_toolchain::ArmToolchain;
-use crate::firmware::{Variant, provide_emulator};
+use crate::emulator;
+use crate::firmware::Variant;
 use crate::image::{self, reachable_panics};
 use crate::workspace;
 use anyhow::{Context, Result, bail, ensure};
@@ -127,7 +128,7 @@ pub fn run(options: &Options) -> Result<()> {
 
 /// Measures the images that have been built with this compiler.
 pub fn measure(arm: &ArmToolchain) -> Result<Report> {
-    let machine = format!("{}, netduinoplus2, -icount shift=4", provide_emulator()?);
+    let machine = format!("{}, netduinoplus2, -icount shift=4", emulator::provide()?);
     let path = workspace::root().join("tests/budgets.toml");
     let text = std::fs::read_to_string(&path)
         .with_context(|| format!("cannot read {}", path.display()))?;

@@ -6,7 +6,7 @@ use anyhow::Result;
 
 /// Builds the images and runs the tests that need them.
 pub fn run(arm: &ArmToolchain) -> Result<String> {
-    let emulator = firmware::provide_emulator()?;
+    let emulator = emulator::provide()?;
     firmware::build(arm)?;
     let test = ["test", "--release", "--package", "surefoot-tests", "--features", "target"];
     workspace::cargo(test).args(["--test", "target"]).run()?;

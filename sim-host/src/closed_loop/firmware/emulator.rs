@@ -10,6 +10,8 @@ use std::time::Duration;
 
 /// QEMU's program for Arm.
 const QEMU: &str = "qemu-system-arm";
+/// The copy that `cargo xtask firmware` unpacks where it cannot be installed.
+const OWN_COPY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/qemu/qemu-system-arm");
 
 /// A running emulator; it ends with this value.
 pub struct Emulator {
@@ -21,6 +23,11 @@ pub struct Emulator {
 }
 
 impl Emulator {
+    /// The program: the workspace's own copy, if there is one, or the machine's.
+    pub fn program() -> &'static str {
+        if Path::new(OWN_COPY).exists() { OWN_COPY } else { QEMU }
+    }
+
     /// Starts QEMU with an image of the firmware built for emulation, in a new folder of its own
     /// below `folder`.
     ///
@@ -59,7 +66,7 @@ impl Emulator {
         }
         let output = folder.join("output");
         let output = File::create(&output).map_err(error(&output.display()))?;
-        let child = Command::new(QEMU)
+        let child = Command::new(Self::program())
             .args([
                 "-machine",
                 "netduinoplus2",
@@ -78,7 +85,7 @@ impl Emulator {
             .stderr(output.try_clone().map_err(error(&"the emulator's output"))?)
             .stdout(output)
             .spawn()
-            .map_err(error(&format!("{QEMU} (`cargo xtask test` installs it)")))?;
+            .map_err(error(&format!("{} (`cargo xtask test` installs it)", Self::program())))?;
 
         // Opened for both directions a pipe does not wait for its other end.
         let both = |name: &str| {
