@@ -54,9 +54,9 @@ fn no_step_allocates() {
         let start = scene.initial.state();
         let mut plant = match &scene.feet {
             Feet::Floor { outline, floor } => {
-                Variational::on_floor(&start, 1e-3, *floor, &outline.sole())
+                Variational::on_floor(&start, 1e-3, *floor, &outline.sole(), None)
             }
-            Feet::Welded {} => Variational::welded(&start, 1e-3),
+            Feet::Welded {} => Variational::welded(&start, 1e-3, None),
         }
         .expect("a plant");
         // Enough to hold the knees for a while.

@@ -39,7 +39,8 @@ impl Bench {
         arm(&mut target, &scene);
         let Feet::Floor { outline, floor } = &scene.feet else { panic!("it has a floor") };
         let (start, step) = (scene.initial.state(), scene.integrator.step_s);
-        let plant = Variational::on_floor(&start, step, *floor, &outline.sole()).expect("a plant");
+        let plant =
+            Variational::on_floor(&start, step, *floor, &outline.sole(), None).expect("a plant");
         Self { scene, plant, target, limits: SafetyLimits::biped(), time: 0.0, torques: [0.0; 12] }
     }
 

@@ -2,6 +2,7 @@
 
 mod configuration;
 mod energies;
+mod joint_stops;
 mod on_floor;
 mod variational;
 mod welded;
@@ -37,7 +38,7 @@ pub struct PlantState {
 pub struct Observation {
     /// Kinetic energy, J.
     pub kinetic_energy: f64,
-    /// Potential energy of gravity, floor at 0, and of the floor's springs, J.
+    /// Potential energy of gravity, floor at 0, and of the floor's and stops' springs, J.
     pub potential_energy: f64,
     /// Vertical force of the ground on the left and right foot, N.
     pub foot_forces: [f64; 2],

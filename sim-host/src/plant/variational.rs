@@ -1,10 +1,11 @@
 //! The biped on the symplectic simulator of chapter 5: the default plant.
 
+use super::joint_stops::with_stops;
 use super::{NV, Observation, Plant, PlantState, StepFailure};
 use crate::contact::{ContactState, Floor, Switching};
 use crate::integrators::Progress;
 use crate::multibody::{
-    Checkpoint, Closing, Closure, Joint, JointConstraint, Simulation, Site, states_of_tree,
+    Checkpoint, Closing, Closure, Joint, JointConstraint, Simulation, Site, Stops, states_of_tree,
     system_of_tree,
 };
 use nalgebra::Vector3;
@@ -24,7 +25,7 @@ pub struct Variational {
 }
 
 impl Variational {
-    /// On a floor, with steps of `h` seconds.
+    /// On a floor, with steps of `h` seconds, and stops in the joints, left leg then right.
     ///
     /// # Errors
     /// [`StepFailure::Dynamics`] for no configuration, [`StepFailure::System`] for a step or a floor that
@@ -34,13 +35,14 @@ impl Variational {
         h: f64,
         floor: Floor,
         outline: &SoleOutline,
+        stops: Option<&[Stops; 12]>,
     ) -> Result<Self, StepFailure> {
         let corners = outline.corners();
         let sites = FEET
             .into_iter()
             .flat_map(|foot| corners.map(|corner| Site { link: foot, position: corner.into() }));
-        let system =
-            system_of_tree(&TREE)?.on_floor(floor, Switching::WithinTheStep, sites.collect())?;
+        let system = with_stops(system_of_tree(&TREE)?, stops)?;
+        let system = system.on_floor(floor, Switching::WithinTheStep, sites.collect())?;
         let (states, rates) = states_of_tree(&TREE, &state.positions, &state.velocities)?;
         let simulation = Simulation::new(system, h, &states, &rates)?;
         Ok(Self { simulation, is_on_floor: true })
@@ -50,9 +52,13 @@ impl Variational {
     ///
     /// # Errors
     /// As for [`Self::on_floor`].
-    pub fn welded(state: &PlantState, h: f64) -> Result<Self, StepFailure> {
+    pub fn welded(
+        state: &PlantState,
+        h: f64,
+        stops: Option<&[Stops; 12]>,
+    ) -> Result<Self, StepFailure> {
         let (states, rates) = states_of_tree(&TREE, &state.positions, &state.velocities)?;
-        let mut system = system_of_tree(&TREE)?;
+        let mut system = with_stops(system_of_tree(&TREE)?, stops)?;
         for foot in FEET {
             let [x, y, z, s, i, j, k] = states[foot];
             let weld = Joint {

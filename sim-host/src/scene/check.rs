@@ -1,5 +1,6 @@
 //! What a scene must fulfil before it runs.
 
+use super::check_hardware::check_hardware;
 use super::{Feet, Scene, SceneError, Workspace};
 use crate::integrators::Method;
 use nalgebra::Vector3;
@@ -15,10 +16,11 @@ const MOST_STEPS: f64 = 1e9;
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     numbers(scene)?;
     timing(scene)?;
+    check_hardware(scene)?;
     reach(scene)
 }
 
-fn wrong(
+pub(super) fn wrong(
     scene: &Scene,
     field: &str,
     value: impl std::fmt::Debug,

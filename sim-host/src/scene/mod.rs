@@ -4,6 +4,7 @@
 
 mod builtin;
 mod check;
+mod check_hardware;
 mod disturbance;
 mod hardware;
 mod load;
