@@ -72,7 +72,8 @@ pub fn run_from(
     let result = match plant(scene) {
         Ok(mut plant) => {
             let result = advance(scene, plant.as_mut(), controller, (from, progress), &mut run)
-                .map_err(|failure| with_step_limit(failure, scene, plant.as_ref()));
+                .map_err(|failure| with_step_limit(failure, scene, plant.as_ref()))
+                .map_err(|failure| with_hardware(failure, scene));
             run.progress = plant.progress().copied();
             result
         }
@@ -248,6 +249,15 @@ fn with_step_limit(mut failure: Failure, scene: &Scene, plant: &dyn Plant) -> Fa
         failure.advice = format!(
             "a step below {limit:.2e} s, this plant's limit of stability; or a softer floor"
         );
+    }
+    failure
+}
+
+/// A run that failed with sensors and motors that are not ideal may have failed for them.
+fn with_hardware(mut failure: Failure, scene: &Scene) -> Failure {
+    let is_ideal = scene.sensing.is_ideal() && scene.acting.is_ideal();
+    if !is_ideal && failure.kind != "resume" {
+        failure.advice += "; or a shorter delay, better sensors, stronger motors, lower gains";
     }
     failure
 }

@@ -1,5 +1,9 @@
 //! The controller in the loop with a plant.
 
+mod acting;
 mod error_dynamics;
 mod experiment_1;
+mod hardware;
 mod plants;
+mod sensing;
+mod stops;
