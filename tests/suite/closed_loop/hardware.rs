@@ -163,6 +163,10 @@ fn experiment_1_balances_with_good_hardware() {
         println!("seed {seed}: {:.3} mm, {degrees:.4}°", 1e3 * last.error_distance());
         assert!(run.failure.is_none(), "{:?}", run.failure);
         assert!(last.error_distance() < 3e-3 && degrees < 0.05);
+        // True to the record's own state.
+        let set_point = load("experiment-1").expect("built in").set_point.position_m;
+        let error: [f64; 3] = std::array::from_fn(|i| last.positions[i] - set_point[i]);
+        assert_eq!(last.position_error, error);
         squares += last.error_distance().powi(2) / 24.0;
     }
     // An axis errs by n_a √(T³)/2 = 0.5 mm; of 24 the deviation is known to 14 %, and the loop is not

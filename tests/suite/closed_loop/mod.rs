@@ -7,3 +7,4 @@ mod hardware;
 mod plants;
 mod sensing;
 mod stops;
+mod supervised;
