@@ -122,18 +122,36 @@ fn errors_have_the_deviations_and_the_memory_of_their_equations() {
     }
 }
 
-/// What the gyroscope tells wrongly during a tick is what the orientation is turned by, but for what the
-/// filter takes away.
+/// With noise that is constant over a tick, errors move as `θ' = ξ_g − θ/T`, `v' = ξ_a − v/T`, `p' = v − p/T`,
+/// here integrated in small steps of second order: the gyroscope's noise is what it tells wrongly, the
+/// accelerometer's what changes the velocity. A tick is a fifth of the time constant, so that each term counts.
 #[test]
 fn the_same_noise_is_told_and_integrated() {
     let truth = state();
-    let mut sensors = Sensors::new(&NOISY, PERIOD);
+    let t = 5.0 * PERIOD;
+    let sensing = Sensing { correction_s: t, accelerometer_noise: 1e-3, ..NOISY };
+    let mut sensors = Sensors::new(&sensing, PERIOD);
     let mut before = errors(&sensors.read(&truth), &truth);
+    let decay = (-PERIOD / t).exp();
     for _ in 0..100 {
         let now = errors(&sensors.read(&truth), &truth);
-        let turned = now[0] - before[0] + before[0] * (PERIOD / NOISY.correction_s);
-        // To first order in Δ/T = 0.004.
-        assert!((turned - now[3] * PERIOD).norm() < 0.01 * now[3].norm() * PERIOD);
+        let pushing = (now[1] - before[1] * decay) / (t * (1.0 - decay));
+        let rates =
+            |[angle, v, p]: [Vector3<f64>; 3]| [now[3] - angle / t, pushing - v / t, v - p / t];
+        let mut e = [before[0], before[1], before[2]];
+        let h = PERIOD / 1000.0;
+        for _ in 0..1000 {
+            let first = rates(e);
+            let half = std::array::from_fn(|i| e[i] + first[i] * (0.5 * h));
+            let middle = rates(half);
+            e = std::array::from_fn(|i| e[i] + middle[i] * h);
+        }
+        for (i, scale) in
+            [now[3] * PERIOD, pushing * PERIOD, pushing * PERIOD * PERIOD].iter().enumerate()
+        {
+            let apart = (e[i] - now[i]).norm();
+            assert!(apart < 1e-6 * scale.norm().max(1e-9), "{i}: {apart:e} {:e}", scale.norm());
+        }
         before = now;
     }
 }
