@@ -1,12 +1,14 @@
-//! No step of the multibody simulator allocates: in flight, on both feet, welded, or closed.
+//! No step of the multibody simulator allocates: in flight, on both feet, welded, or closed. Nor do sensors and
+//! motors.
 //!
 //! A binary of its own, as the allocator is the program's, and with one test, as threads share it.
 
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
+use surefoot_sim::closed_loop::{Motors, Sensors};
 use surefoot_sim::multibody::Simulation;
-use surefoot_sim::plant::{Plant, Variational};
-use surefoot_sim::scene::{AnyScene, Block, Feet, Mechanism, open};
+use surefoot_sim::plant::{Additions, Plant, Variational};
+use surefoot_sim::scene::{Acting, AnyScene, Block, Feet, Mechanism, Sensing, open};
 
 #[global_allocator]
 static COUNTING: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
@@ -52,12 +54,22 @@ fn no_step_allocates() {
     for name in ["experiment-1", "experiment-1-welded", "experiment-2", "experiment-2-welded"] {
         let AnyScene::Robot(scene) = open(name).expect("built in") else { unreachable!() };
         let start = scene.initial.state();
-        let block = scene.block.as_ref().map(Block::thrown);
+        let additions = Additions { stops: None, block: scene.block.as_ref().map(Block::thrown) };
+        let noisy = Sensing { encoder_counts: 4096, gyroscope_noise: 1e-4, ..Sensing::default() };
+        let mut sensors = Sensors::new(&noisy, 1e-3);
+        let weak =
+            Acting { delay_s: 3.5e-3, torque_limits_nm: Some([50.0; 6]), ..Acting::default() };
+        let mut motors = Motors::new(&weak, 1e-3, 1);
+        count("sensors and motors", || {
+            let seen = sensors.read(&start);
+            motors.command(&std::array::from_fn(|i| 100.0 * seen.positions[7 + i]), 0.0);
+            std::hint::black_box(motors.over_step(0));
+        });
         let mut plant = match &scene.feet {
             Feet::Floor { outline, floor } => {
-                Variational::on_floor(&start, 1e-3, *floor, &outline.sole(), block.as_ref())
+                Variational::on_floor(&start, 1e-3, *floor, &outline.sole(), &additions)
             }
-            Feet::Welded {} => Variational::welded(&start, 1e-3, block.as_ref()),
+            Feet::Welded {} => Variational::welded(&start, 1e-3, &additions),
         }
         .expect("a plant");
         // Enough to hold the knees for a while.

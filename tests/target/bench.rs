@@ -5,7 +5,7 @@ use surefoot::balance::{Mode, SafetyLimits};
 use surefoot_link::{Sensors, ToTarget, Torques};
 use surefoot_sim::closed_loop::firmware::{Emulator, Target, set_point, settings};
 use surefoot_sim::closed_loop::measured;
-use surefoot_sim::plant::{Plant, Variational};
+use surefoot_sim::plant::{Additions, Plant, Variational};
 use surefoot_sim::scene::{Feet, Scene, load};
 
 /// Images that `cargo xtask firmware` leaves.
@@ -39,7 +39,9 @@ impl Bench {
         arm(&mut target, &scene);
         let Feet::Floor { outline, floor } = &scene.feet else { panic!("it has a floor") };
         let (start, step) = (scene.initial.state(), scene.integrator.step_s);
-        let plant = Variational::on_floor(&start, step, *floor, &outline.sole()).expect("a plant");
+        let plant =
+            Variational::on_floor(&start, step, *floor, &outline.sole(), &Additions::default())
+                .expect("a plant");
         Self { scene, plant, target, limits: SafetyLimits::biped(), time: 0.0, torques: [0.0; 12] }
     }
 

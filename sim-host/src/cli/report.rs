@@ -1,7 +1,7 @@
 //! What `run` says: as text for people, as JSON for programs.
 
 use super::controller::Place;
-use crate::closed_loop::{Costs, Outcome, Peaks, Run, Scalar};
+use crate::closed_loop::{Costs, CutTorques, Outcome, Peaks, Run, Scalar};
 use crate::experiments::printed_figures;
 use crate::record::Sample;
 use crate::scene::{Scene, TorquesFrom};
@@ -108,6 +108,9 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
         let (joint, peak) = peaks.largest_joint();
         writeln!(out, "  largest torque: {joint}, {:.1} N·m at {} s", peak.value, peak.time_s)?;
     }
+    if let CutTorques { joint_ticks, first_s: Some(first) } = run.cut_torques {
+        writeln!(out, "  torques cut to the motors' limits: {joint_ticks}, from {first} s on")?;
+    }
     if let Some(progress) = &run.progress {
         writeln!(
             out,
@@ -192,6 +195,7 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "momentum": Value::Null,
         "constraint_max": run.constraint_max,
         "peak_torque_nm": peak_torque,
+        "cut_torques": run.cut_torques,
         "desired_force_z_n": {
             "max": peaks.map(|peaks| peaks.force_z.value),
             "final": last.map(|sample| sample.desired_wrench[2]),

@@ -32,10 +32,6 @@ pub struct Commanded {
     pub torques: [f64; 12],
     /// N, N·m, in the frame of the central body.
     pub desired_wrench: [f64; 6],
-    /// m, world frame.
-    pub position_error: [f64; 3],
-    /// World frame, scalar first.
-    pub orientation_error: [f64; 4],
 }
 
 /// Anything that turns a measured state into torques.
@@ -142,7 +138,7 @@ impl<T: Real> HostController<T> {
     }
 }
 
-/// What ideal sensors read, in precision `T`.
+/// A measured state in precision `T`, as the core takes it.
 pub fn measured<T: Real>(state: &PlantState) -> RobotState<T, 2> {
     let p: [T; 19] = state.positions.map(T::of);
     let v: [T; 18] = state.velocities.map(T::of);
@@ -166,8 +162,6 @@ impl<T: Real> Controller for HostController<T> {
                 if i < 6 { left[i].to_f64() } else { right[i - 6].to_f64() }
             }),
             desired_wrench: command.desired_wrench.to_array().map(Real::to_f64),
-            position_error: [0, 1, 2].map(|i| command.position_error[i].to_f64()),
-            orientation_error: command.orientation_error.to_array().map(Real::to_f64),
         })
     }
 }

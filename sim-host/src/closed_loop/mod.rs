@@ -1,13 +1,21 @@
 //! The controller in the loop: sampled at its rate, its torques held between ticks.
 
+mod acting;
 mod controller;
+mod errors;
+mod estimate;
 mod events;
 pub mod firmware;
+mod memory;
 mod outcome;
+mod plant;
 mod run;
+mod sensing;
 
+pub use acting::{CutTorques, Motors};
 pub use controller::{
     Commanded, ControlFailure, Controller, Costs, HostController, Scalar, controller, measured,
 };
 pub use outcome::{Failure, Outcome, Peak, Peaks};
 pub use run::{Run, run, run_from};
+pub use sensing::Sensors;

@@ -1,14 +1,17 @@
 //! One run of a scene.
 
+use super::errors::set_point_errors;
 use super::events::Watch;
-use super::{Commanded, Controller, Costs, Failure, Outcome};
-use crate::integrators::{Method, Progress};
-use crate::plant::{OnFloor, Plant, PlantState, StepFailure, Struck, Variational, Welded};
+use super::memory::{memory, remember};
+use super::plant::plant;
+use super::{Commanded, Controller, Costs, CutTorques, Failure, Motors, Outcome, Sensors};
+use crate::integrators::Progress;
+use crate::plant::{Plant, PlantState, StepFailure};
 use crate::record::{Event, Sample, SavedRun};
-use crate::scene::{Block, Feet, Scene, TorquesFrom};
+use crate::scene::{Scene, TorquesFrom};
 use nalgebra::Vector3;
 use std::time::{Duration, Instant};
-use surefoot::spatial::{Quaternion, Wrench};
+use surefoot::spatial::Quaternion;
 
 /// What a run gives.
 #[derive(Clone, Debug)]
@@ -33,6 +36,8 @@ pub struct Run {
     pub saved: Option<SavedRun>,
     /// What the controller's ticks have cost, where it ran on a target.
     pub costs: Option<Costs>,
+    /// What the motors could not give.
+    pub cut_torques: CutTorques,
 }
 
 /// A central body this low (m), or tilted this far (cosine of 60°), has fallen.
@@ -63,11 +68,13 @@ pub fn run_from(
         progress: None,
         saved: None,
         costs: None,
+        cut_torques: CutTorques::default(),
     };
     let result = match plant(scene) {
         Ok(mut plant) => {
             let result = advance(scene, plant.as_mut(), controller, (from, progress), &mut run)
-                .map_err(|failure| with_step_limit(failure, scene, plant.as_ref()));
+                .map_err(|failure| with_step_limit(failure, scene, plant.as_ref()))
+                .map_err(|failure| with_hardware(failure, scene));
             run.progress = plant.progress().copied();
             result
         }
@@ -85,31 +92,6 @@ pub fn run_from(
     run
 }
 
-/// The smallest plant that plays the scene: no contact code where feet are welded.
-fn plant(scene: &Scene) -> Result<Box<dyn Plant>, StepFailure> {
-    let (start, step) = (scene.initial.state(), scene.integrator.step_s);
-    let is_variational = scene.integrator.name == Method::Variational;
-    let block = scene.block.as_ref().map(Block::thrown);
-    if is_variational {
-        return Ok(Box::new(match &scene.feet {
-            Feet::Floor { outline, floor } => {
-                Variational::on_floor(&start, step, *floor, &outline.sole(), block.as_ref())?
-            }
-            Feet::Welded {} => Variational::welded(&start, step, block.as_ref())?,
-        }));
-    }
-    let (robot, floor): (Box<dyn Plant>, _) = match &scene.feet {
-        Feet::Floor { outline, floor } => {
-            (Box::new(OnFloor::new(start, *floor, &outline.sole())), Some(*floor))
-        }
-        Feet::Welded {} => (Box::new(Welded::new(start)?), None),
-    };
-    Ok(match block {
-        Some(block) => Box::new(Struck::new(robot, block, floor)),
-        None => robot,
-    })
-}
-
 fn advance(
     scene: &Scene,
     plant: &mut dyn Plant,
@@ -123,8 +105,10 @@ fn advance(
     let ticks = (scene.duration_s * scene.controller.rate_hz).round().max(1.0) as u64;
     let mut watch = Watch::default();
     let mut touched = scene.controller.torques_from == TorquesFrom::Start;
+    let mut sensors = Sensors::new(&scene.sensing, steps_per_tick as f64 * step);
+    let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize);
     let mut first = 0;
-    if let Some(SavedRun { torques_on, checkpoint, .. }) = from {
+    if let Some(SavedRun { torques_on, checkpoint, hardware, .. }) = from {
         plant.restore(checkpoint).map_err(|failure| step_failure(0.0, failure))?;
         let made = plant.progress().map_or(0, |progress| progress.steps);
         if !made.is_multiple_of(steps_per_tick) {
@@ -132,6 +116,9 @@ fn advance(
         }
         touched |= torques_on;
         first = made / steps_per_tick;
+        if !remember(scene, hardware.as_ref(), first, &mut sensors, &mut motors) {
+            return Err(other_hardware(made as f64 * step));
+        }
         watch = plant.contacts().as_ref().map_or(watch, Watch::from);
         watch.look_at_block(0.0, plant.is_struck(), &mut Vec::new());
     }
@@ -139,8 +126,12 @@ fn advance(
         let time = (tick * steps_per_tick) as f64 * step;
         touched |= watch.touched();
         let state = plant.state().map_err(|failure| step_failure(time, failure))?;
-        let command = command(scene, &state, controller, touched, time)?;
-        sample(plant, &state, &command, time, run)?;
+        // A run that is taken up again begins with this tick.
+        let memory = (tick == ticks).then(|| memory(scene, &sensors, &motors)).flatten();
+        let command = command(&sensors.read(&state), controller, touched, time)?;
+        motors.command(&command.torques, time);
+        run.cut_torques = motors.cut();
+        sample(plant, scene, &state, (&command.desired_wrench, &motors.over_step(0)), time, run)?;
         fallen(&state, time)?;
         if tick % 25 == 0 {
             progress(time);
@@ -150,13 +141,14 @@ fn advance(
                 scene: scene.name.clone(),
                 torques_on: touched,
                 checkpoint: checkpoint.clone(),
+                hardware: memory,
             });
             break;
         }
-        let push = scene.push(time).map(|force| Wrench { force, torque: Vector3::zeros() });
-        for _ in 0..steps_per_tick {
+        let push = scene.push(time);
+        for number in 0..steps_per_tick as usize {
             plant
-                .step(step, &command.torques, push)
+                .step(step, &motors.over_step(number), push)
                 .map_err(|failure| step_failure(time, failure))?;
             run.steps += 1;
             let made = (first * steps_per_tick + run.steps) as f64 * step;
@@ -171,50 +163,41 @@ fn advance(
 
 /// The torques of this tick; zero before the first touch-down, if the scene says so.
 fn command(
-    scene: &Scene,
-    state: &PlantState,
+    measured: &PlantState,
     controller: &mut dyn Controller,
     active: bool,
     time: f64,
 ) -> Result<Commanded, Failure> {
-    if active {
-        return controller.tick(state).map_err(|failure| Failure {
-            kind: failure.kind(),
-            time_s: time,
-            place: failure.to_string(),
-            advice: failure.advice().into(),
-        });
+    if !active {
+        return Ok(Commanded { torques: [0.0; 12], desired_wrench: [0.0; 6] });
     }
-    let p = &state.positions;
-    let q = Quaternion::from_array([p[3], p[4], p[5], p[6]]);
-    let desired = Quaternion::from_array(scene.set_point.orientation);
-    let error = surefoot::spatial::orientation_error(q, desired);
-    let at = scene.set_point.position_m;
-    Ok(Commanded {
-        torques: [0.0; 12],
-        desired_wrench: [0.0; 6],
-        position_error: [p[0] - at[0], p[1] - at[1], p[2] - at[2]],
-        orientation_error: error.to_array(),
+    controller.tick(measured).map_err(|failure| Failure {
+        kind: failure.kind(),
+        time_s: time,
+        place: failure.to_string(),
+        advice: failure.advice().into(),
     })
 }
 
 fn sample(
     plant: &mut dyn Plant,
+    scene: &Scene,
     state: &PlantState,
-    command: &Commanded,
+    (desired_wrench, torques): (&[f64; 6], &[f64; 12]),
     time_s: f64,
     run: &mut Run,
 ) -> Result<(), Failure> {
+    let (position_error, orientation_error) = set_point_errors(state, &scene.set_point);
     let seen = plant.observe().map_err(|failure| step_failure(time_s, failure))?;
     run.constraint_max = run.constraint_max.max(seen.constraint);
     run.samples.push(Sample {
         time_s,
         positions: state.positions,
         velocities: state.velocities,
-        torques: command.torques,
-        desired_wrench: command.desired_wrench,
-        position_error: command.position_error,
-        orientation_error: command.orientation_error,
+        torques: *torques,
+        desired_wrench: *desired_wrench,
+        position_error,
+        orientation_error,
         foot_forces: seen.foot_forces,
         contacts: seen.contacts,
         energy: [seen.kinetic_energy, seen.potential_energy],
@@ -254,12 +237,30 @@ fn with_step_limit(mut failure: Failure, scene: &Scene, plant: &dyn Plant) -> Fa
     failure
 }
 
+/// A run that failed with sensors and motors that are not ideal may have failed for them.
+fn with_hardware(mut failure: Failure, scene: &Scene) -> Failure {
+    let is_ideal = scene.sensing.is_ideal() && scene.acting.is_ideal();
+    if !is_ideal && failure.kind != "resume" {
+        failure.advice += "; or a shorter delay, better sensors, stronger motors, lower gains";
+    }
+    failure
+}
+
 fn not_at_a_tick(time_s: f64) -> Failure {
     Failure {
         kind: "resume",
         time_s,
         place: "the saved run stopped between two ticks of this scene's controller".into(),
         advice: "the control rate that the run was saved with".into(),
+    }
+}
+
+fn other_hardware(time_s: f64) -> Failure {
+    Failure {
+        kind: "resume",
+        time_s,
+        place: "the saved run had other sensors or another delay than this scene".into(),
+        advice: "the tables `sensing` and `acting` that the run was saved with".into(),
     }
 }
 

@@ -122,6 +122,7 @@ pub fn run_from(
         scene: scene.name.clone(),
         torques_on: false,
         checkpoint: checkpoint.clone(),
+        hardware: None,
     });
     run.wall = begun.elapsed();
     Ok(run)

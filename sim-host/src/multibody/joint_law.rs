@@ -28,6 +28,13 @@ pub struct Stops {
     pub stiffness: f64,
 }
 
+impl Stops {
+    /// How far beyond a stop the joint is, with its sign; zero between them.
+    pub fn beyond(&self, x: f64) -> f64 {
+        (x - self.high).max(0.0) + (x - self.low).min(0.0)
+    }
+}
+
 impl JointLaw {
     /// Whether all its numbers can be used.
     pub fn is_valid(&self) -> bool {
@@ -46,9 +53,7 @@ impl JointLaw {
         let mut torque = -self.stiffness * (0.5 * (a + b) - self.rest) - self.damping * way / h;
         let mut slope = -0.5 * self.stiffness - self.damping / h;
         if let Some(stops) = self.stops {
-            // How far each end is beyond a stop.
-            let beyond = |x: f64| (x - stops.high).max(0.0) + (x - stops.low).min(0.0);
-            let (from, to) = (beyond(a), beyond(b));
+            let (from, to) = (stops.beyond(a), stops.beyond(b));
             let k = stops.stiffness;
             if from != 0.0 && to != 0.0 && (from > 0.0) == (to > 0.0) {
                 torque -= 0.5 * k * (from + to);
@@ -66,9 +71,9 @@ impl JointLaw {
     pub fn energy(&self, x: f64) -> f64 {
         let spring = 0.5 * self.stiffness * (x - self.rest).powi(2);
         spring
-            + self.stops.map_or(0.0, |s| {
-                let beyond = (x - s.high).max(0.0) + (x - s.low).min(0.0);
-                0.5 * s.stiffness * beyond * beyond
+            + self.stops.map_or(0.0, |stops| {
+                let beyond = stops.beyond(x);
+                0.5 * stops.stiffness * beyond * beyond
             })
     }
 }

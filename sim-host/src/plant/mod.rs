@@ -2,6 +2,7 @@
 
 mod configuration;
 mod energies;
+mod joint_stops;
 mod on_floor;
 mod struck;
 mod thrown_block;
@@ -12,7 +13,7 @@ pub use configuration::retract;
 pub use on_floor::OnFloor;
 pub use struck::Struck;
 pub use thrown_block::ThrownBlock;
-pub use variational::Variational;
+pub use variational::{Additions, Variational};
 pub use welded::Welded;
 
 use crate::contact::ContactState;
@@ -41,7 +42,7 @@ pub struct PlantState {
 pub struct Observation {
     /// Kinetic energy, J.
     pub kinetic_energy: f64,
-    /// Potential energy of gravity, floor at 0, and of the floor's springs, J.
+    /// Potential energy of gravity, floor at 0, and of the floor's and stops' springs, J.
     pub potential_energy: f64,
     /// Vertical force of the ground on the left and right foot, N.
     pub foot_forces: [f64; 2],

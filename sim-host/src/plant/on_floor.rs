@@ -2,10 +2,12 @@
 //! forces at the corners of the soles. It is what most simulators do, kept to compare with.
 
 use super::energies::energies;
+use super::joint_stops::{motors_and_stops, stop_energy};
 use super::{
     Observation, Plant, PlantState, StepFailure, check_velocities, generalized, in_body, retract,
 };
 use crate::contact::{ContactPoint, ContactState, Floor, PointForce};
+use crate::multibody::Stops;
 use nalgebra::Vector3;
 use surefoot::dynamics::{body_poses, body_velocities, forward_dynamics, joint_poses};
 use surefoot::model::robots::biped::{FEET, SoleOutline, TREE};
@@ -18,6 +20,7 @@ const CORNERS: usize = 4;
 #[derive(Clone, Debug)]
 pub struct OnFloor {
     state: PlantState,
+    stops: Option<[Stops; 12]>,
     floor: Floor,
     /// In the feet's body frames, m.
     corners: [[Vector3<f64>; CORNERS]; 2],
@@ -39,10 +42,16 @@ impl OnFloor {
         let corners = outline.corners();
         Self {
             state,
+            stops: None,
             floor,
             corners: [corners, corners],
             points: [[ContactPoint::default(); CORNERS]; 2],
         }
+    }
+
+    /// With stops in the joints, left leg then right, hip to foot.
+    pub fn with_stops(self, stops: Option<[Stops; 12]>) -> Self {
+        Self { stops, ..self }
     }
 
     fn touch(&self, poses: &[Pose<f64>; 13], velocities: &[Twist<f64>; 13]) -> Touch {
@@ -92,7 +101,7 @@ impl Plant for OnFloor {
             &TREE,
             &relative,
             &velocities,
-            &generalized(torques),
+            &generalized(&motors_and_stops(torques, self.stops.as_ref(), &positions)),
             Some(&touch.wrenches),
         )?;
         let mut next = velocities;
@@ -117,7 +126,9 @@ impl Plant for OnFloor {
         let (kinetic_energy, potential) = energies(&poses, &relative, velocities);
         Ok(Observation {
             kinetic_energy,
-            potential_energy: potential + touch.spring_energy,
+            potential_energy: potential
+                + touch.spring_energy
+                + stop_energy(self.stops.as_ref(), positions),
             foot_forces: touch.corners.map(|foot| foot.iter().map(|force| force[2]).sum()),
             contacts: self.contacts(),
             corner_forces: Some(touch.corners),
@@ -141,6 +152,9 @@ impl Plant for OnFloor {
         let roll = 2.0 * rolling_inertia / damping;
         let heave = 2.0 * mass / (CORNERS as f64 * self.floor.normal_damping);
         let stiffness = 2.0 * (mass / (CORNERS as f64 * self.floor.normal_stiffness)).sqrt();
-        Some(roll.min(heave).min(stiffness))
+        // Stops of an ankle press against the same foot.
+        let hardest = self.stops.iter().flatten().map(|s| s.stiffness).fold(0.0, f64::max);
+        let stops = 2.0 * (rolling_inertia / hardest).sqrt();
+        Some(roll.min(heave).min(stiffness).min(stops))
     }
 }

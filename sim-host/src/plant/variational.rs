@@ -1,11 +1,12 @@
 //! The biped on the symplectic simulator of chapter 5: the default plant.
 
+use super::joint_stops::with_stops;
 use super::{NV, Observation, Plant, PlantState, StepFailure, ThrownBlock};
 use crate::contact::{ContactState, Floor, Switching};
 use crate::integrators::Progress;
 use crate::multibody::{
-    Checkpoint, Closing, Closure, Joint, JointConstraint, Simulation, Site, System, states_of_tree,
-    system_of_tree,
+    Checkpoint, Closing, Closure, Joint, JointConstraint, Simulation, Site, Stops, System,
+    states_of_tree, system_of_tree,
 };
 use crate::record::BlockSample;
 use nalgebra::Vector3;
@@ -19,6 +20,15 @@ const WELD: usize = 6;
 /// The block's link, after those of the robot.
 const BLOCK: usize = 13;
 
+/// What a scene adds to the robot; nothing unless said, and then nothing of it is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Additions {
+    /// Ends of the joints' ways.
+    pub stops: Option<[Stops; 12]>,
+    /// A block that is thrown at it.
+    pub block: Option<ThrownBlock>,
+}
+
 /// The biped on a floor, or welded to it. Its step is that of its start.
 #[derive(Clone, Debug)]
 pub struct Variational {
@@ -28,7 +38,7 @@ pub struct Variational {
 }
 
 impl Variational {
-    /// On a floor, with steps of `h` seconds.
+    /// On a floor, with steps of `h` seconds, and stops in the joints, left leg then right.
     ///
     /// # Errors
     /// [`StepFailure::Dynamics`] for no configuration, [`StepFailure::System`] for a step or a floor that
@@ -38,17 +48,17 @@ impl Variational {
         h: f64,
         floor: Floor,
         outline: &SoleOutline,
-        block: Option<&ThrownBlock>,
+        additions: &Additions,
     ) -> Result<Self, StepFailure> {
         let corners = outline.corners();
         let of_feet = FEET
             .into_iter()
             .flat_map(|foot| corners.map(|corner| Site { link: foot, position: corner.into() }));
-        let of_block = block.into_iter().flat_map(ThrownBlock::corners);
+        let of_block = additions.block.iter().flat_map(ThrownBlock::corners);
         let sites =
             of_feet.chain(of_block.map(|position| Site { link: BLOCK, position })).collect();
-        let system = system(block)?.on_floor(floor, Switching::WithinTheStep, sites)?;
-        Self::new(state, h, system, block, true)
+        let system = system(additions)?.on_floor(floor, Switching::WithinTheStep, sites)?;
+        Self::new(state, h, system, additions, true)
     }
 
     /// With both feet held where they start: the loop through the floor is closed by constraints. A block
@@ -56,13 +66,9 @@ impl Variational {
     ///
     /// # Errors
     /// As for [`Self::on_floor`].
-    pub fn welded(
-        state: &PlantState,
-        h: f64,
-        block: Option<&ThrownBlock>,
-    ) -> Result<Self, StepFailure> {
+    pub fn welded(state: &PlantState, h: f64, additions: &Additions) -> Result<Self, StepFailure> {
         let (states, _) = states_of_tree(&TREE, &state.positions, &state.velocities)?;
-        let mut system = system(block)?;
+        let mut system = system(additions)?;
         for foot in FEET {
             let [x, y, z, s, i, j, k] = states[foot];
             let weld = Joint {
@@ -74,23 +80,23 @@ impl Variational {
             let closing = Closing::Joint(weld);
             system = system.with_closure(Closure { outboard: foot, inboard: None, closing })?;
         }
-        Self::new(state, h, system, block, false)
+        Self::new(state, h, system, additions, false)
     }
 
     fn new(
         state: &PlantState,
         h: f64,
         system: System,
-        block: Option<&ThrownBlock>,
+        additions: &Additions,
         is_on_floor: bool,
     ) -> Result<Self, StepFailure> {
         let (mut states, mut rates) = states_of_tree(&TREE, &state.positions, &state.velocities)?;
-        if let Some((state, rate)) = block.map(ThrownBlock::start) {
+        if let Some((state, rate)) = additions.block.as_ref().map(ThrownBlock::start) {
             states.push(state);
             rates.push(rate);
         }
         let simulation = Simulation::new(system, h, &states, &rates)?;
-        Ok(Self { simulation, is_on_floor, has_block: block.is_some() })
+        Ok(Self { simulation, is_on_floor, has_block: additions.block.is_some() })
     }
 
     /// The simulation.
@@ -116,10 +122,10 @@ impl Variational {
     }
 }
 
-/// The robot, and the block if there is one.
-fn system(block: Option<&ThrownBlock>) -> Result<System, StepFailure> {
-    let robot = system_of_tree(&TREE)?;
-    Ok(match block {
+/// The robot with what is added to it.
+fn system(additions: &Additions) -> Result<System, StepFailure> {
+    let robot = with_stops(system_of_tree(&TREE)?, additions.stops.as_ref())?;
+    Ok(match &additions.block {
         Some(block) => robot.with_link(block.link())?.with_striker(block.striker(BLOCK))?,
         None => robot,
     })

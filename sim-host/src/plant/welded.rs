@@ -9,11 +9,13 @@
 //! positive definite and are factored by Cholesky.
 
 use super::energies::energies;
+use super::joint_stops::{motors_and_stops, stop_energy};
 use super::{
     NV, Observation, Plant, PlantState, StepFailure, check_velocities, generalized, in_body,
     retract,
 };
 use crate::contact::ContactState;
+use crate::multibody::Stops;
 use nalgebra::{Cholesky, SMatrix, SVector};
 use surefoot::dynamics::{
     DynamicsFault, bias_forces, body_poses, body_velocities, joint_poses, mass_matrix,
@@ -28,6 +30,7 @@ const WELDS: usize = 12;
 #[derive(Clone, Debug)]
 pub struct Welded {
     state: PlantState,
+    stops: Option<[Stops; 12]>,
     /// Where the feet were welded, world from body.
     welds: [Pose<f64>; 2],
     /// Vertical forces on the feet in the last step, N.
@@ -41,7 +44,12 @@ impl Welded {
     /// If that is no configuration.
     pub fn new(state: PlantState) -> Result<Self, DynamicsFault> {
         let poses = body_poses(&TREE, &joint_poses(&TREE, &state.positions)?);
-        Ok(Self { state, welds: FEET.map(|foot| poses[foot]), vertical: [0.0; 2] })
+        Ok(Self { state, stops: None, welds: FEET.map(|foot| poses[foot]), vertical: [0.0; 2] })
+    }
+
+    /// With stops in the joints, left leg then right, hip to foot.
+    pub fn with_stops(self, stops: Option<[Stops; 12]>) -> Self {
+        Self { stops, ..self }
     }
 }
 
@@ -74,8 +82,9 @@ impl Plant for Welded {
             .ok_or(StepFailure::Dynamics(DynamicsFault::SingularInertia { joint: 0 }))?;
         let beta = SVector::from(velocities);
         let poses = body_poses(&TREE, &relative);
-        let mut force = SVector::from(generalized(torques))
-            - SVector::from(bias_forces(&TREE, &relative, &velocities, None));
+        let mut force =
+            SVector::from(generalized(&motors_and_stops(torques, self.stops.as_ref(), &positions)))
+                - SVector::from(bias_forces(&TREE, &relative, &velocities, None));
         if let Some(load) = load {
             let mut on_body = force.fixed_rows_mut::<6>(0);
             on_body += SVector::from(in_body(&load, &poses[0]).to_array());
@@ -106,7 +115,7 @@ impl Plant for Welded {
         let PlantState { positions, velocities } = &self.state;
         let relative = joint_poses(&TREE, positions)?;
         let poses = body_poses(&TREE, &relative);
-        let (kinetic_energy, potential_energy) = energies(&poses, &relative, velocities);
+        let (kinetic_energy, potential) = energies(&poses, &relative, velocities);
         let apart = FEET.into_iter().zip(&self.welds).map(|(foot, weld)| {
             let drift = weld.inverse().compose(&poses[foot]);
             let turned = (drift.rotation - nalgebra::Matrix3::identity()).norm();
@@ -115,7 +124,7 @@ impl Plant for Welded {
         });
         Ok(Observation {
             kinetic_energy,
-            potential_energy,
+            potential_energy: potential + stop_energy(self.stops.as_ref(), positions),
             foot_forces: self.vertical,
             contacts: None,
             corner_forces: None,

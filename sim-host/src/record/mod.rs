@@ -8,7 +8,7 @@ mod saved;
 pub use self::csv::write_csv;
 pub use event::{Event, EventKind};
 pub use mechanism_csv::write_mechanism_csv;
-pub use saved::SavedRun;
+pub use saved::{HardwareMemory, SavedRun};
 
 use crate::contact::ContactState;
 use crate::plant::{NQ, NV};
@@ -22,19 +22,20 @@ pub struct Sample {
     pub positions: [f64; NQ],
     /// Body twist of the central body, joint rates.
     pub velocities: [f64; NV],
-    /// Torques on the joints, N·m, as the motors give them.
+    /// Torques of the motors, N·m: what they give, delayed and cut, during the plant's step that begins
+    /// here. Stops of joints press besides.
     pub torques: [f64; 12],
     /// Wrench asked of the legs on the central body, in its frame: N, N·m.
     pub desired_wrench: [f64; 6],
-    /// `p − p_d`, world frame, m.
+    /// `p − p_d` of the true state, whatever the sensors say, world frame, m.
     pub position_error: [f64; 3],
-    /// Orientation error, world frame, scalar first and not negative.
+    /// Orientation error of the true state, world frame, scalar first and not negative.
     pub orientation_error: [f64; 4],
     /// Vertical forces of the ground on the feet, N.
     pub foot_forces: [f64; 2],
     /// By foot and corner.
     pub contacts: Option<[[ContactState; 4]; 2]>,
-    /// Kinetic and potential energy, J.
+    /// Kinetic and potential energy, J; the latter of gravity, and of the floor's and stops' springs.
     pub energy: [f64; 2],
     /// Mean forces of the floor on the corners since the step before, N, world frame; by foot and corner.
     pub corner_forces: Option<[[[f64; 3]; 4]; 2]>,

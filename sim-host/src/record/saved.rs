@@ -14,6 +14,19 @@ pub struct SavedRun {
     pub torques_on: bool,
     /// The motion.
     pub checkpoint: Checkpoint,
+    /// What a robot's sensors and motors remember; none where they are ideal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardware: Option<HardwareMemory>,
+}
+
+/// What sensors and motors remember of earlier ticks.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HardwareMemory {
+    /// Whole counts of the encoders at the last tick, left leg then right.
+    pub encoder_counts: Option<[f64; 12]>,
+    /// Torques on their way to the motors, oldest first, one set a tick, N·m.
+    pub torques: Vec<[f64; 12]>,
 }
 
 impl SavedRun {

@@ -1,5 +1,6 @@
 //! What a scene must fulfil before it runs.
 
+use super::check_hardware::check_hardware;
 use super::{Feet, Scene, SceneError, Workspace};
 use crate::integrators::Method;
 use nalgebra::Vector3;
@@ -16,10 +17,11 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     numbers(scene)?;
     thrown_block(scene)?;
     timing(scene)?;
+    check_hardware(scene)?;
     reach(scene)
 }
 
-fn wrong(
+pub(super) fn wrong(
     scene: &Scene,
     field: &str,
     value: impl std::fmt::Debug,

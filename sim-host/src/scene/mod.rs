@@ -4,6 +4,7 @@
 
 mod builtin;
 mod check;
+mod check_hardware;
 mod disturbance;
 mod hardware;
 mod load;
@@ -19,8 +20,10 @@ pub use multibody::{BodyEntry, BuildError, JointEntry, LoopEntry, Misdescribed, 
 
 use crate::contact::Floor;
 use crate::integrators::Method;
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use surefoot::model::robots::biped::SoleOutline;
+use surefoot::spatial::Wrench;
 
 /// Everything a run needs to know. Angles in degrees where a name says so, all else in SI units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,12 +61,12 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The force of all pushes at a time, N; `None` where there is none.
-    pub fn push(&self, time_s: f64) -> Option<nalgebra::Vector3<f64>> {
+    /// What all pushes do to the central body at a time, world frame; `None` where there is none.
+    pub fn push(&self, time_s: f64) -> Option<Wrench<f64>> {
         self.pushes
             .iter()
             .filter(|push| (push.at_s..push.at_s + push.duration_s).contains(&time_s))
-            .map(|push| nalgebra::Vector3::from(push.force_n))
+            .map(|push| Wrench { force: push.force_n.into(), torque: Vector3::zeros() })
             .reduce(|a, b| a + b)
     }
 }

@@ -1,7 +1,7 @@
 //! The firmware in the emulator.
 
 use crate::arm_toolchain::ArmToolchain;
-use crate::{firmware, workspace};
+use crate::{emulator, firmware, workspace};
 use anyhow::Result;
 
 /// Builds the images and runs the tests that need them.

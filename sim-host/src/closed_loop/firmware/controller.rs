@@ -4,15 +4,12 @@ use super::{LinkError, Target};
 use crate::closed_loop::{Commanded, ControlFailure, Controller, Costs, measured};
 use crate::plant::PlantState;
 use crate::scene::{Scene, Workspace};
-use nalgebra::Vector3;
 use surefoot::balance::{Mode, SafetyLimits};
-use surefoot::spatial::{Quaternion, orientation_error};
 use surefoot_link::{Counter, Pacing, Sensors, SetPoint, Settings, ToTarget, Torques};
 
 /// A target that balances a scene's plant, in lock step with it.
 pub struct FirmwareController {
     target: Target,
-    set_point: SetPoint,
     /// What each tick has cost, in the target's unit.
     costs: Vec<u32>,
 }
@@ -23,12 +20,11 @@ impl FirmwareController {
     /// # Errors
     /// A [`LinkError`].
     pub fn new(mut target: Target, scene: &Scene) -> Result<Self, LinkError> {
-        let set_point = set_point(scene);
         target.order("disarm", &ToTarget::Disarm)?;
         target.order("configure", &ToTarget::Configure(settings(scene)))?;
-        target.order("set point", &ToTarget::SetPoint(set_point))?;
+        target.order("set point", &ToTarget::SetPoint(set_point(scene)))?;
         target.order("arm", &ToTarget::Arm)?;
-        Ok(Self { target, set_point, costs: Vec::new() })
+        Ok(Self { target, costs: Vec::new() })
     }
 
     /// What each tick has cost, in the target's unit.
@@ -104,17 +100,10 @@ impl Controller for FirmwareController {
         {
             return Err(ControlFailure::Stopped(reason));
         }
-        let sensors = measured::<f32>(state);
-        let error = sensors.position - Vector3::from(self.set_point.position);
-        let desired = Quaternion::from_array(self.set_point.orientation);
         let [left, right] = torques.joint_torques;
         Ok(Commanded {
             torques: std::array::from_fn(|i| f64::from(if i < 6 { left[i] } else { right[i - 6] })),
             desired_wrench: torques.desired_wrench.map(f64::from),
-            position_error: [error.x, error.y, error.z].map(f64::from),
-            orientation_error: orientation_error(sensors.orientation, desired)
-                .to_array()
-                .map(f64::from),
         })
     }
 }

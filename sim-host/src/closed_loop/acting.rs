@@ -1,0 +1,110 @@
+//! From a controller's torques to what motors give: late, and not more than they can.
+
+use crate::scene::Acting;
+use serde::Serialize;
+
+/// Torques that were larger than the motors'.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct CutTorques {
+    /// Joints' torques cut, one a joint and tick.
+    pub joint_ticks: u64,
+    /// The first tick with one, s.
+    pub first_s: Option<f64>,
+}
+
+/// Motors of all joints. A torque is held from its tick to the next; the motors give the same a delay later,
+/// cut to their limits, and zero before the first. Ideal ones give what they are asked for.
+///
+/// During a plant's step they give the mean over it, so that the impulse is exact and a delay may end
+/// within a step.
+#[derive(Clone, Debug)]
+pub struct Motors {
+    /// N·m, left leg then right.
+    limits: Option<[f64; 12]>,
+    steps_per_tick: usize,
+    /// The delay in steps: whole ones, and the part of one that is left.
+    whole: usize,
+    part: f64,
+    /// A ring of the latest ticks' torques, as many as the delay spans.
+    torques: Vec<[f64; 12]>,
+    newest: usize,
+    cut: CutTorques,
+}
+
+/// A part of a step this small is the round-off of a delay given in seconds.
+const NO_PART: f64 = 1e-9;
+
+impl Motors {
+    /// As a scene has them, for plant steps of `step_s` and so many of them a tick, at least 1.
+    pub fn new(acting: &Acting, step_s: f64, steps_per_tick: usize) -> Self {
+        let delay = acting.delay_s / step_s;
+        let whole = (delay + NO_PART).floor();
+        let part = if delay - whole > NO_PART { delay - whole } else { 0.0 };
+        let whole = whole as usize;
+        let spanned = (whole + steps_per_tick) / steps_per_tick;
+        Self {
+            limits: acting.torque_limits_nm.map(|leg| std::array::from_fn(|i| leg[i % 6])),
+            steps_per_tick,
+            whole,
+            part,
+            torques: vec![[0.0; 12]; 1 + spanned],
+            newest: 0,
+            cut: CutTorques::default(),
+        }
+    }
+
+    /// Takes a tick's torques.
+    pub fn command(&mut self, torques: &[f64; 12], time_s: f64) {
+        let mut given = *torques;
+        if let Some(limits) = &self.limits {
+            for (torque, limit) in given.iter_mut().zip(limits) {
+                if torque.abs() > *limit {
+                    *torque = limit.copysign(*torque);
+                    self.cut.joint_ticks += 1;
+                    self.cut.first_s.get_or_insert(time_s);
+                }
+            }
+        }
+        self.newest = (self.newest + 1) % self.torques.len();
+        self.torques[self.newest] = given;
+    }
+
+    /// Mean torques over a plant step, the one that begins at the latest tick being 0.
+    pub fn over_step(&self, step: usize) -> [f64; 12] {
+        let late = self.at(step, self.whole);
+        if self.part == 0.0 {
+            return *late;
+        }
+        let later = self.at(step, self.whole + 1);
+        std::array::from_fn(|i| (1.0 - self.part) * late[i] + self.part * later[i])
+    }
+
+    /// Torques asked for during the step that is so many steps `back`.
+    fn at(&self, step: usize, back: usize) -> &[f64; 12] {
+        debug_assert!(step < self.steps_per_tick);
+        let ticks = (back + self.steps_per_tick - 1 - step) / self.steps_per_tick;
+        let length = self.torques.len();
+        &self.torques[(self.newest + length - ticks) % length]
+    }
+
+    /// What was cut so far.
+    pub fn cut(&self) -> CutTorques {
+        self.cut
+    }
+
+    /// Torques on their way, oldest first: all that a delay needs to go on.
+    pub(super) fn pending(&self) -> Vec<[f64; 12]> {
+        let (newer, older) = self.torques.split_at(self.newest + 1);
+        [older, newer].concat()
+    }
+
+    /// Goes on with torques on their way; `false` if they are of another delay.
+    pub(super) fn resume(&mut self, pending: &[[f64; 12]]) -> bool {
+        let fits = pending.len() == self.torques.len();
+        if fits {
+            self.torques.copy_from_slice(pending);
+            self.newest = pending.len() - 1;
+        }
+        fits
+    }
+}

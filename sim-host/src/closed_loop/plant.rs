@@ -1,0 +1,32 @@
+//! From a scene to the smallest plant that plays it.
+
+use crate::integrators::Method;
+use crate::plant::{Additions, OnFloor, Plant, StepFailure, Struck, Variational, Welded};
+use crate::scene::{Block, Feet, Scene};
+
+/// No contact code where feet are welded, no block and no stops where the scene has none.
+pub(super) fn plant(scene: &Scene) -> Result<Box<dyn Plant>, StepFailure> {
+    let (start, step) = (scene.initial.state(), scene.integrator.step_s);
+    let stops = scene.acting.joint_stops.map(|stops| stops.in_radians());
+    let block = scene.block.as_ref().map(Block::thrown);
+    if scene.integrator.name == Method::Variational {
+        let additions = Additions { stops, block };
+        return Ok(Box::new(match &scene.feet {
+            Feet::Floor { outline, floor } => {
+                Variational::on_floor(&start, step, *floor, &outline.sole(), &additions)?
+            }
+            Feet::Welded {} => Variational::welded(&start, step, &additions)?,
+        }));
+    }
+    let (robot, floor): (Box<dyn Plant>, _) = match &scene.feet {
+        Feet::Floor { outline, floor } => {
+            let robot = OnFloor::new(start, *floor, &outline.sole()).with_stops(stops);
+            (Box::new(robot), Some(*floor))
+        }
+        Feet::Welded {} => (Box::new(Welded::new(start)?.with_stops(stops)), None),
+    };
+    Ok(match block {
+        Some(block) => Box::new(Struck::new(robot, block, floor)),
+        None => robot,
+    })
+}

@@ -1,0 +1,141 @@
+//! What a scene's sensors, motors and joints must fulfil.
+
+use super::check::wrong;
+use super::{JointStops, Scene, SceneError};
+
+/// Longest delay, s. A robot falls over within it.
+const LONGEST_DELAY: f64 = 1.0;
+/// Most ticks that a delay may span: their torques are kept.
+const MOST_DELAYED_TICKS: f64 = 1e5;
+/// Fewest counts of an encoder a turn.
+const FEWEST_COUNTS: u32 = 16;
+
+pub(super) fn check_hardware(scene: &Scene) -> Result<(), SceneError> {
+    sensing(scene)?;
+    acting(scene)?;
+    scene.acting.joint_stops.map_or(Ok(()), |stops| joint_stops(scene, &stops))
+}
+
+fn sensing(scene: &Scene) -> Result<(), SceneError> {
+    let sensing = &scene.sensing;
+    if (1..FEWEST_COUNTS).contains(&sensing.encoder_counts) {
+        let expected = format!("{FEWEST_COUNTS} counts or more, or 0 for exact encoders");
+        return Err(wrong(scene, "sensing.encoder_counts", sensing.encoder_counts, expected));
+    }
+    for (field, noise) in [
+        ("sensing.gyroscope_noise", sensing.gyroscope_noise),
+        ("sensing.accelerometer_noise", sensing.accelerometer_noise),
+    ] {
+        if !(noise.is_finite() && noise >= 0.0) {
+            return Err(wrong(scene, field, noise, "a finite density, zero or more"));
+        }
+    }
+    let correction = sensing.correction_s;
+    if !(correction.is_finite() && correction > 0.0) {
+        let expected = "a finite time above zero, in seconds";
+        return Err(wrong(scene, "sensing.correction_s", correction, expected));
+    }
+    Ok(())
+}
+
+fn acting(scene: &Scene) -> Result<(), SceneError> {
+    let delay = scene.acting.delay_s;
+    if !(0.0..=LONGEST_DELAY).contains(&delay) {
+        let expected = format!("a delay of 0 to {LONGEST_DELAY} s");
+        return Err(wrong(scene, "acting.delay_s", delay, expected));
+    }
+    if delay * scene.controller.rate_hz > MOST_DELAYED_TICKS {
+        let expected = format!("a delay of at most {MOST_DELAYED_TICKS} ticks");
+        return Err(wrong(scene, "acting.delay_s", delay, expected));
+    }
+    if let Some(limits) = scene.acting.torque_limits_nm
+        && !limits.iter().all(|limit| limit.is_finite() && *limit > 0.0)
+    {
+        let expected = "six finite torques above zero, in N·m";
+        return Err(wrong(scene, "acting.torque_limits_nm", limits, expected));
+    }
+    Ok(())
+}
+
+fn joint_stops(scene: &Scene, stops: &JointStops) -> Result<(), SceneError> {
+    if !(stops.stiffness.is_finite() && stops.stiffness > 0.0) {
+        let expected = "a finite stiffness above zero, in N·m/rad";
+        return Err(wrong(scene, "acting.joint_stops.stiffness", stops.stiffness, expected));
+    }
+    let initial = &scene.initial;
+    for (side, ends, angles) in [
+        ("left", &stops.left_deg, &initial.left_leg_deg),
+        ("right", &stops.right_deg, &initial.right_leg_deg),
+    ] {
+        for (joint, ([low, high], angle)) in ends.iter().zip(angles).enumerate() {
+            let field = format!("acting.joint_stops.{side}_deg[{joint}]");
+            if !(low.is_finite() && high.is_finite() && low < high) {
+                let expected = "two finite angles, the lower first";
+                return Err(wrong(scene, &field, [low, high], expected));
+            }
+            if !(low..=high).contains(&angle) {
+                let expected = format!("stops around the angle at the start, {angle}°");
+                return Err(wrong(scene, &field, [low, high], expected));
+            }
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::builtin::BUILT_IN;
+    use super::super::parse;
+
+    /// Two tables at the end of a good scene, and words that the error must have.
+    #[test]
+    fn every_bad_value_is_refused_with_its_place() {
+        let stops = |knee: &str, stiffness: &str| {
+            format!(
+                "[acting.joint_stops]\nstiffness = {stiffness}\n\
+                 left_deg = [[-30, 30], [-30, 90], [-30, 30], [-140, -1], [-30, 30], [-45, 45]]\n\
+                 right_deg = [[-30, 30], [-30, 90], [-30, 30], {knee}, [-30, 30], [-45, 45]]\n"
+            )
+        };
+        let text = |table: &str| format!("{}\n{table}\n", BUILT_IN[0].text);
+        for good in [
+            stops("[-140, -1]", "2e3").as_str(),
+            "[sensing]\nencoder_counts = 16\ngyroscope_noise = 0.0\nseed = 7",
+            "[acting]\ndelay_s = 1.0",
+        ] {
+            parse("test", &text(good)).expect(good);
+        }
+        for (table, words) in [
+            ("[sensing]\nencoder_counts = 15", ["sensing.encoder_counts", "15", "16 counts"]),
+            ("[sensing]\nencoder_counts = -1", ["line", "-1", "u32"]),
+            ("[sensing]\ngyroscope_noise = -1e-4", ["sensing.gyroscope_noise", "-0.0001", "zero"]),
+            ("[sensing]\naccelerometer_noise = inf", ["accelerometer_noise", "inf", "finite"]),
+            ("[sensing]\ncorrection_s = 0.0", ["sensing.correction_s", "0.0", "above zero"]),
+            ("[sensing]\ncorrection_s = nan", ["sensing.correction_s", "NaN", "above zero"]),
+            ("[sensing]\nbits = 14", ["line", "bits", "encoder_counts"]),
+            ("[acting]\ndelay_s = -1e-3", ["acting.delay_s", "-0.001", "0 to 1 s"]),
+            ("[acting]\ndelay_s = 1.5", ["acting.delay_s", "1.5", "0 to 1 s"]),
+            ("[acting]\ndelay_s = nan", ["acting.delay_s", "NaN", "0 to 1 s"]),
+            (
+                "[acting]\ntorque_limits_nm = [1, 1, 1, 0, 1, 1]",
+                ["acting.torque_limits_nm", "[1.0, 1.0, 1.0, 0.0, 1.0, 1.0]", "above zero"],
+            ),
+            ("[acting]\ntorque_limits_nm = [1, 1]", ["line", "torque_limits_nm", "length"]),
+            (
+                &stops("[-1, -140]", "2e3"),
+                ["joint_stops.right_deg[3]", "[-1.0, -140.0]", "lower first"],
+            ),
+            (&stops("[-140, inf]", "2e3"), ["joint_stops.right_deg[3]", "inf", "finite"]),
+            (
+                &stops("[-70, -1]", "2e3"),
+                ["joint_stops.right_deg[3]", "[-70.0, -1.0]", "-77.4595°"],
+            ),
+            (&stops("[-140, -1]", "0.0"), ["joint_stops.stiffness", "0.0", "above zero"]),
+        ] {
+            let error = parse("test", &text(table)).expect_err(table).to_string();
+            for word in words {
+                assert!(error.contains(word), "{table}: {error}");
+            }
+        }
+    }
+}
