@@ -47,9 +47,10 @@ fn unpack() -> Result<()> {
 fn script() -> String {
     format!(
         "#!/bin/sh\n\
-         root=$(dirname \"$0\")/root/usr\n\
-         LD_LIBRARY_PATH=$(echo \"$root\"/lib/*-linux-gnu) \\\n\
-         exec \"$root/bin/{PROGRAM}\" -L \"$root/share/qemu\" \"$@\"\n"
+         root=$(dirname \"$0\")/root\n\
+         LD_LIBRARY_PATH=$(echo \"$root\"/usr/lib/*-linux-gnu):$(echo \"$root\"/lib/*-linux-gnu)\n\
+         export LD_LIBRARY_PATH\n\
+         exec \"$root/usr/bin/{PROGRAM}\" -L \"$root/usr/share/qemu\" \"$@\"\n"
     )
 }
 

@@ -40,7 +40,7 @@ fn mechanisms_go_on_to_the_same_bits() {
 
 #[test]
 fn controlled_robots_go_on_to_the_same_bits() {
-    for name in ["experiment-1", "experiment-1-welded"] {
+    for name in ["experiment-1", "experiment-1-welded", "experiment-2"] {
         let AnyScene::Robot(mut scene) = open(name).expect("built in") else { unreachable!() };
         let run = |scene: &_, from: Option<&SavedRun>| {
             let mut controller = closed_loop::controller(scene, Scalar::F64);
