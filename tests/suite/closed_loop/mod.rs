@@ -2,4 +2,5 @@
 
 mod error_dynamics;
 mod experiment_1;
+mod limits;
 mod plants;

@@ -58,19 +58,14 @@ impl Cell {
         }
     }
 
-    /// The limit and its step, and the same at half the step. Where they do not agree, the last is
-    /// nearest to the truth; see [`Self::spread`].
-    pub fn last_two(&self) -> Option<(&Level, &Level)> {
-        match self.levels.as_slice() {
-            [.., a, b] => Some((a, b)),
-            _ => None,
-        }
+    /// The limit and its step; the longer of the last two steps.
+    pub fn limit(&self) -> Option<&Level> {
+        self.levels.iter().nth_back(1)
     }
 
-    /// The level whose value is the limit: of two that agree the one with the longer step, else the last.
-    pub fn limit(&self) -> Option<&Level> {
-        let (a, b) = self.last_two()?;
-        Some(if self.agrees() { a } else { b })
+    /// What half of that step makes of it.
+    pub fn at_half_step(&self) -> Option<&Level> {
+        self.levels.last()
     }
 
     /// Least and greatest value over all steps.

@@ -1,26 +1,31 @@
 //! How a run fails, told from its record.
 //!
-//! A run that does not work is *lost* at a moment, in a first manner:
-//! 1. a torque beyond [`RUNAWAY`] times what the biped's motors are made for: the loop runs away, there;
-//! 2. a fall, or any other end of a body that leans by more than [`LEANING_DEG`]: it tips, from the last
-//!    sample on at which a sole was flat on the floor. A body that falls without leaning has collapsed;
-//! 3. a fault of the controller, or a step that the simulator could not make: there;
-//! 4. none of these, but it is not at the set point when it should be: at its end.
+//! A run that does not work is *lost* at a moment, in a first manner; the first of these that holds:
+//! 1. some joint's torque went beyond [`RUNAWAY`] times what the biped's motors are made for: the loop ran
+//!    away. So ends an upright robot whose feet come off the floor: the controller takes them for fixed,
+//!    a foot's rates enter its torques squared, and the torques square themselves from tick to tick;
+//! 2. the run ended while the body leant by more than [`LEANING_DEG`]: it tips;
+//! 3. it fell without leaning: its legs collapsed;
+//! 4. the controller had a fault, or the simulator could not make a step;
+//! 5. none of these, but it is not at the set point when it should be.
 //!
-//! That is what became of it; why may lie before. Over the [`BEFORE_S`] before the loss,
+//! That is what became of it; why may lie before. The loss is at the end, but for 1 (before that torque)
+//! and 2; for these two it is no later than the last sample at which a sole was flat on the floor: what
+//! feet do in the air or on an edge is no reason any more. Over the [`BEFORE_S`] before it,
 //! - if at half of the samples or more some joint's torque was at its limit, it is the torque limit;
 //! - else, if some corner of a sole has moved along the floor by more than [`SLIP_M`] while it was down,
 //!   the foot slipped;
 //! - else it is the first manner.
 //!
-//! Corners' ways are sums of displacements between samples at both of which the corner is down: one that
-//! rocks to and fro goes nowhere, and one that steps has not slipped. A single long slide that ended well
-//! is no reason for a loss that comes later: robots live through slides of several centimetres.
+//! Corners' ways are sums of displacements between samples at both of which the corner is down, and between
+//! which its foot has not lifted off: one that rocks to and fro goes nowhere, and one that steps has not
+//! slipped. A slide that ended well is no reason for a loss that comes later: robots live through slides of
+//! several centimetres.
 
 use super::criterion::{Criterion, last_seconds};
 use crate::closed_loop::Run;
 use crate::contact::ContactState;
-use crate::record::Sample;
+use crate::record::{EventKind, Sample};
 use crate::scene::{Feet, Scene};
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
@@ -56,13 +61,16 @@ pub enum Manner {
 }
 
 /// Torques of so many times [`SafetyLimits::biped`] are a runaway.
-pub const RUNAWAY: f64 = 10.0;
+pub const RUNAWAY: f64 = 3.0;
 /// A body leans that is tilted by more than this.
 pub const LEANING_DEG: f64 = 30.0;
 /// Time before the loss in which its reason is looked for, s.
-pub const BEFORE_S: f64 = 0.5;
+pub const BEFORE_S: f64 = 1.0;
 /// Way along the floor of a corner that slips, m.
 pub const SLIP_M: f64 = 0.03;
+
+/// As events name them.
+const FOOT_NAMES: [&str; 2] = ["left foot", "right foot"];
 
 impl Manner {
     /// For people.
@@ -104,29 +112,30 @@ impl Ending<'_> {
         Some(if self.slide(before) > SLIP_M { Manner::Slip } else { first })
     }
 
-    /// The first manner of the loss, and the number of samples before it.
+    /// The first manner of the loss, and the number of samples before it; `None` if there is none.
     fn loss(&self, criterion: &Criterion) -> Option<(Manner, usize)> {
         let samples = &self.run.samples;
-        if let Some(at) = samples.iter().position(runs_away) {
-            return Some((Manner::Runaway, at));
+        let failure = self.run.failure.as_ref();
+        if failure.is_none() && criterion.is_settled(samples, &self.scene.set_point) {
+            return None;
         }
-        let Some(failure) = &self.run.failure else {
-            let settled = criterion.is_settled(samples, &self.scene.set_point);
-            return (!settled).then_some((Manner::DoesNotSettle, samples.len()));
-        };
+        let runaway = samples.iter().position(runs_away);
         let leans = samples.last().is_some_and(leans);
-        let manner = match self.fault {
+        let manner = match (failure, self.fault) {
+            _ if runaway.is_some() => Manner::Runaway,
+            (None, _) => Manner::DoesNotSettle,
             _ if leans => Manner::Tip,
-            _ if failure.kind == "fell" => Manner::Collapse,
-            Some(Fault::SingularLeg { .. }) => Manner::SingularLeg,
-            Some(_) => Manner::ControllerFault,
-            None => Manner::StepFailure,
+            (Some(failure), _) if failure.kind == "fell" => Manner::Collapse,
+            (_, Some(Fault::SingularLeg { .. })) => Manner::SingularLeg,
+            (_, Some(_)) => Manner::ControllerFault,
+            (_, None) => Manner::StepFailure,
         };
+        let before = &samples[..runaway.unwrap_or(samples.len())];
         let end = match manner {
-            Manner::Tip => samples.iter().rposition(has_flat_sole).map_or(0, |last| last + 1),
-            _ => samples.len(),
+            Manner::Runaway | Manner::Tip => before.iter().rposition(has_flat_sole),
+            _ => None,
         };
-        Some((manner, end))
+        Some((manner, end.map_or(before.len(), |last| last + 1)))
     }
 
     /// Whether some joint's torque is as large as it may be.
@@ -141,19 +150,30 @@ impl Ending<'_> {
         let Feet::Floor { outline, .. } = &self.scene.feet else { return 0.0 };
         let corners = outline.sole().corners();
         let mut ways = [[Vector2::<f64>::zeros(); 4]; 2];
-        let mut before: Option<[[Option<Vector2<f64>>; 4]; 2]> = None;
-        for sample in samples {
-            let now = corners_down(sample, &corners);
-            for (foot, corner) in (0..2).flat_map(|foot| (0..4).map(move |corner| (foot, corner))) {
-                if let (Some(from), Some(to)) =
-                    (before.and_then(|all| all[foot][corner]), now[foot][corner])
-                {
-                    ways[foot][corner] += to - from;
+        let down: Vec<_> = samples.iter().map(|sample| corners_down(sample, &corners)).collect();
+        for (times, places) in samples.windows(2).zip(down.windows(2)) {
+            for foot in 0..2 {
+                if self.lifts_off(foot, times[0].time_s, times[1].time_s) {
+                    continue;
+                }
+                for (corner, way) in ways[foot].iter_mut().enumerate() {
+                    if let [Some(from), Some(to)] = [0, 1].map(|end| places[end][foot][corner]) {
+                        *way += to - from;
+                    }
                 }
             }
-            before = Some(now);
         }
         ways.iter().flatten().map(Vector2::norm).fold(0.0, f64::max)
+    }
+
+    /// Whether a foot has been off the floor between two samples.
+    fn lifts_off(&self, foot: usize, after_s: f64, until_s: f64) -> bool {
+        self.run.events.iter().any(|event| {
+            event.kind == EventKind::LiftOff
+                && event.place == FOOT_NAMES[foot]
+                && event.time_s > after_s
+                && event.time_s <= until_s
+        })
     }
 }
 

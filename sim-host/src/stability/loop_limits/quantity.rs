@@ -112,7 +112,7 @@ impl Quantity {
     pub fn tolerance(self) -> Tolerance {
         match self {
             Self::Delay => Tolerance::Absolute(1e-4),
-            Self::SetPointHeight => Tolerance::Absolute(2e-4),
+            Self::SetPointHeight => Tolerance::Absolute(5e-4),
             _ => Tolerance::Relative(0.01),
         }
     }

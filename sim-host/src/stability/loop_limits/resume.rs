@@ -78,8 +78,7 @@ impl Store {
     /// # Errors
     /// [`StoreError`].
     pub fn keep(&self, cells: &[Cell]) -> Result<(), StoreError> {
-        let finished =
-            Finished { fingerprint: self.fingerprint.clone(), cells: cells.to_vec() };
+        let finished = Finished { fingerprint: self.fingerprint.clone(), cells: cells.to_vec() };
         let text = serde_json::to_string_pretty(&finished).map_err(|error| self.error(&error))?;
         let draft = self.path.with_extension("draft");
         std::fs::write(&draft, text)
@@ -107,7 +106,7 @@ const SEED: u64 = 0xcbf2_9ce4_8422_2325;
 
 /// FNV-1a, which is the same for every compiler and machine.
 fn hash(from: u64, bytes: &[u8]) -> u64 {
-    bytes.iter().fold(from, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
+    bytes
+        .iter()
+        .fold(from, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3))
 }

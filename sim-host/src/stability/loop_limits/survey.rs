@@ -42,6 +42,13 @@ impl Survey<'_> {
             .collect()
     }
 
+    /// Those of them that are not among `known`.
+    pub fn missing(&self, known: &[Cell]) -> Vec<(Quantity, Footing)> {
+        let mut work = self.work();
+        work.retain(|cell| position(known, cell).is_none());
+        work
+    }
+
     /// Finds all limits that the store has not, and keeps each there as soon as it is found; `done` hears
     /// of each, of how many. The result does not depend on what was there before.
     ///
@@ -53,11 +60,9 @@ impl Survey<'_> {
         done: &(dyn Fn(usize, usize) + Sync),
     ) -> Result<Vec<Cell>, SurveyError> {
         let work = self.work();
-        let known = Mutex::new((store.finished()?, None));
-        let missing: Vec<_> = match known.lock() {
-            Ok(known) => work.iter().filter(|cell| position(&known.0, cell).is_none()).collect(),
-            Err(_) => Vec::new(),
-        };
+        let known = store.finished()?;
+        let missing = self.missing(&known);
+        let known = Mutex::new((known, None));
         let next = AtomicUsize::new(0);
         let found_before = work.len() - missing.len();
         done(found_before, work.len());
@@ -85,8 +90,7 @@ impl Survey<'_> {
             }
         });
         // A thread that panicked has taken the whole program with it.
-        let (cells, error) =
-            known.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let (cells, error) = known.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
         match error {
             Some(error) => Err(error),
             None => Ok(work

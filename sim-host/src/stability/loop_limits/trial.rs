@@ -3,9 +3,7 @@
 use super::criterion::Criterion;
 use super::manner::{Ending, Manner};
 use super::quantity::Quantity;
-use crate::closed_loop::{
-    Commanded, ControlFailure, Controller, Run, Scalar, controller, run,
-};
+use crate::closed_loop::{Commanded, ControlFailure, Controller, Run, Scalar, controller, run};
 use crate::plant::PlantState;
 use crate::scene::{Feet, Outline, Scene, SceneError};
 use serde::{Deserialize, Serialize};
