@@ -1,10 +1,14 @@
 //! Limits of a control loop as text, CSV and JSON.
 
-use crate::stability::loop_limits::{Cell, Found, HALVINGS, Manner, Quantity, Survey, Tolerance};
+use crate::stability::loop_limits::{
+    ACCELEROMETER_NOISE, Cell, Footing, Found, GYROSCOPE_NOISE, HALVINGS, Manner, Quantity, Survey,
+    Tolerance,
+};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
+use surefoot::balance::SafetyLimits;
 
 /// A row of the CSV file: one limit.
 #[derive(Serialize)]
@@ -34,21 +38,15 @@ pub(super) fn text(survey: &Survey, cells: &[Cell]) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         out,
-        "Limits of {}. A value works if {}.\nFrom the easy end of its range each is tried outward until \
+        "Limits of {}. A value works if {}.\n\nFrom the easy end of its range each is tried outward until \
          the first that fails, and bisected before that;\nwhether something beyond works again is not \
          asked. Halving the step changes a limit by less than its tolerance, but for ~.\n",
         scene.name,
         survey.criterion.words(),
     );
-    let footings: Vec<_> = survey.work().iter().map(|(_, footing)| *footing).collect();
-    let mut columns: Vec<_> = Vec::new();
-    for footing in footings {
-        if !columns.contains(&footing) {
-            columns.push(footing);
-        }
-    }
+    let columns = Footing::of(scene);
     let _ = write!(out, "{:<23}{:>10}{:>9}", "", "scene", "within");
-    for footing in &columns {
+    for footing in columns {
         let _ = write!(
             out,
             "  │{:>11}  {:<17}{:>9}{:>11}",
@@ -89,6 +87,29 @@ pub(super) fn text(survey: &Survey, cells: &[Cell]) -> String {
         out.push('\n');
     }
     out.push_str(&notes);
+    out.push_str(&references(survey, cells));
+    out
+}
+
+/// What multiples and shares are of.
+fn references(survey: &Survey, cells: &[Cell]) -> String {
+    let mut out = String::new();
+    let has = |quantity| cells.iter().any(|cell| cell.quantity == quantity);
+    if has(Quantity::GainScale) {
+        out.push_str("Gains: Kp times the scale, Kv times its root.\n");
+    }
+    if has(Quantity::Noise) {
+        let _ = writeln!(
+            out,
+            "Sensor noise: times {GYROSCOPE_NOISE:.2e} rad/s/√Hz and {ACCELEROMETER_NOISE:.2e} m/s²/√Hz \
+             (an MPU-6050's); seed {}.",
+            survey.scene.sensing.seed,
+        );
+    }
+    if has(Quantity::TorqueShare) {
+        let limits = SafetyLimits::<f64>::biped().joint_torque;
+        let _ = writeln!(out, "Torque limits: of {limits:?} N·m, hip to foot.");
+    }
     out
 }
 
@@ -203,7 +224,7 @@ pub(super) fn json(survey: &Survey, cells: &[Cell]) -> Value {
         "chart": "stability",
         "scene": survey.scene.name,
         "criterion": survey.criterion,
-        "works_if": survey.criterion.words(),
+        "works_if": survey.criterion.words().replace('\n', " "),
         "islands_beyond_the_first_failure": "not looked for",
         "searched": searched,
         "limits": rows(survey, cells),

@@ -28,8 +28,8 @@ impl Criterion {
     /// For people.
     pub fn words(&self) -> String {
         format!(
-            "the run ends upright, without failure, and stays within {:.0} mm and {}° of the set \
-             point for the last {} s of {} s or the scene's time, if that is longer",
+            "the run ends upright, without failure,\n\
+             and stays within {:.0} mm and {}° of the set point for the last {} s of at least {} s",
             1e3 * self.distance_m,
             self.angle_deg,
             self.settled_for_s,

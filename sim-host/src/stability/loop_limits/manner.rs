@@ -1,9 +1,11 @@
 //! How a run fails, told from its record.
 //!
 //! A run that does not work is *lost* at a moment, in a first manner; the first of these that holds:
-//! 1. some joint's torque went beyond [`RUNAWAY`] times what the biped's motors are made for: the loop ran
-//!    away. So ends an upright robot whose feet come off the floor: the controller takes them for fixed,
-//!    a foot's rates enter its torques squared, and the torques square themselves from tick to tick;
+//! 1. some joint's torque went beyond [`RUNAWAY`] times what the biped's motors are made for. So end most:
+//!    the controller takes the feet for fixed, and where they are not, their rates enter its torques
+//!    squared, which so square themselves from tick to tick. If all soles had left flat contact more than
+//!    [`RUNAWAY_TICKS`] ticks before, the robot had tipped or lifted off, and the torques only followed:
+//!    it tips; else the loop itself ran away;
 //! 2. the run ended while the body leant by more than [`LEANING_DEG`]: it tips;
 //! 3. it fell without leaning: its legs collapsed;
 //! 4. the controller had a fault, or the simulator could not make a step;
@@ -40,11 +42,11 @@ use surefoot::spatial::Quaternion;
 pub enum Manner {
     /// A foot slips.
     Slip,
-    /// The robot tips over the edges of its soles.
+    /// The robot tips over the edges of its soles, or lifts off them.
     Tip,
     /// The legs give way under an upright body.
     Collapse,
-    /// The torques run away while the robot is up: the loop is unstable.
+    /// The torques run away while a sole is flat on the floor: the loop is unstable.
     Runaway,
     /// The motors' limits are too low.
     TorqueLimit,
@@ -62,6 +64,8 @@ pub enum Manner {
 
 /// Torques of so many times [`SafetyLimits::biped`] are a runaway.
 pub const RUNAWAY: f64 = 3.0;
+/// Ticks that a runaway takes: soles that it tears off the floor are off it for no longer.
+pub const RUNAWAY_TICKS: usize = 5;
 /// A body leans that is tilted by more than this.
 pub const LEANING_DEG: f64 = 30.0;
 /// Time before the loss in which its reason is looked for, s.
@@ -119,23 +123,22 @@ impl Ending<'_> {
         if failure.is_none() && criterion.is_settled(samples, &self.scene.set_point) {
             return None;
         }
-        let runaway = samples.iter().position(runs_away);
-        let leans = samples.last().is_some_and(leans);
+        if let Some(runaway) = samples.iter().position(runs_away) {
+            let flat = samples_to_last_flat_sole(&samples[..runaway]);
+            let tipped = runaway - flat > RUNAWAY_TICKS;
+            return Some((if tipped { Manner::Tip } else { Manner::Runaway }, flat));
+        }
+        if failure.is_some() && samples.last().is_some_and(leans) {
+            return Some((Manner::Tip, samples_to_last_flat_sole(samples)));
+        }
         let manner = match (failure, self.fault) {
-            _ if runaway.is_some() => Manner::Runaway,
             (None, _) => Manner::DoesNotSettle,
-            _ if leans => Manner::Tip,
             (Some(failure), _) if failure.kind == "fell" => Manner::Collapse,
             (_, Some(Fault::SingularLeg { .. })) => Manner::SingularLeg,
             (_, Some(_)) => Manner::ControllerFault,
             (_, None) => Manner::StepFailure,
         };
-        let before = &samples[..runaway.unwrap_or(samples.len())];
-        let end = match manner {
-            Manner::Runaway | Manner::Tip => before.iter().rposition(has_flat_sole),
-            _ => None,
-        };
-        Some((manner, end.map_or(before.len(), |last| last + 1)))
+        Some((manner, samples.len()))
     }
 
     /// Whether some joint's torque is as large as it may be.
@@ -187,6 +190,11 @@ fn leans(sample: &Sample) -> bool {
     let [s, x, y, z] = std::array::from_fn(|i| sample.positions[3 + i]);
     let up = Quaternion::from_array([s, x, y, z]).rotate(Vector3::z()).z;
     !(up >= LEANING_DEG.to_radians().cos())
+}
+
+/// How many samples there are up to the last with a flat sole; none if there is no such sample.
+fn samples_to_last_flat_sole(samples: &[Sample]) -> usize {
+    samples.iter().rposition(has_flat_sole).map_or(0, |last| last + 1)
 }
 
 /// Whether all corners of a sole are down.

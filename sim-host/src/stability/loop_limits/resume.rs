@@ -2,7 +2,7 @@
 
 use super::cell::{Cell, HALVINGS};
 use super::criterion::Criterion;
-use super::manner::{BEFORE_S, LEANING_DEG, RUNAWAY, SLIP_M};
+use super::manner::{BEFORE_S, LEANING_DEG, RUNAWAY, RUNAWAY_TICKS, SLIP_M};
 use super::quantity::{ACCELEROMETER_NOISE, GYROSCOPE_NOISE, Quantity};
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
@@ -47,6 +47,7 @@ impl Store {
             BEFORE_S,
             LEANING_DEG,
             RUNAWAY,
+            RUNAWAY_TICKS as f64,
             SLIP_M,
             GYROSCOPE_NOISE,
             ACCELEROMETER_NOISE,
