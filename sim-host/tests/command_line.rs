@@ -368,3 +368,35 @@ fn a_wrong_mechanism_is_refused_with_its_place() {
         }
     }
 }
+
+/// Limits of a loop: the same document from a survey, from what it left, and from a fresh one.
+#[test]
+fn limits_are_charted_and_taken_up_again() {
+    let folder = folder("limits");
+    let scene =
+        changed_scene(&folder, &[("1.10]", "1.165]"), ("duration_s = 3.0", "duration_s = 1.0")]);
+    let all = ["chart", "stability", "--scene", &scene, "--only", "set-point-height", "--json"];
+    let chart = |more: &[&str]| said(&surefoot(&folder, &[&all, more].concat()));
+    let (status, first, messages) = chart(&["--fresh"]);
+    assert_eq!(status, Some(0), "{messages}");
+    assert!(!messages.contains("taken up"), "{messages}");
+    let document: Value = serde_json::from_str(&first).expect("one document and nothing else");
+    let limit = &document["limits"][0];
+    assert_eq!(limit["quantity"], "set-point-height");
+    assert_eq!(limit["footing"], "welded");
+    assert!(limit["value"].as_f64().is_some_and(|z| (1.165..1.2).contains(&z)), "{limit}");
+    assert_eq!(limit["manner"], "singular leg");
+    let (status, second, messages) = chart(&[]);
+    assert_eq!((status, &second), (Some(0), &first));
+    assert!(messages.contains("1 of 1 limits taken up"), "{messages}");
+
+    for (arguments, word) in [
+        (&["chart", "stability", "--scene", "chain"], "nobody controls"),
+        (&["chart", "stability", "--scene", "experiment-3"], "no scene"),
+        (&["chart", "stability", "--fresh", "--json"], "--scene"),
+    ] {
+        let (status, _, stderr) = said(&surefoot(&folder, arguments));
+        assert_eq!(status, Some(2));
+        assert!(stderr.contains(word), "{stderr}");
+    }
+}

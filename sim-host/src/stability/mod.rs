@@ -3,6 +3,7 @@
 
 mod catalogue;
 mod forecast;
+pub mod loop_limits;
 mod problem;
 mod scan;
 mod verdict;

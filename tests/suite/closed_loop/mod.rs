@@ -5,6 +5,7 @@ mod error_dynamics;
 mod experiment_1;
 mod experiment_2;
 mod hardware;
+mod limits;
 mod plants;
 mod sensing;
 mod stops;

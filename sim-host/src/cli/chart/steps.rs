@@ -1,37 +1,15 @@
-//! `surefoot chart`
+//! `surefoot chart stability`: the longest steps of methods on mechanisms.
 
-use super::{bad_input, say};
+use super::super::{bad_input, say};
+use super::Options;
 use crate::stability::{Limit, Scan, problems, scan};
-use clap::Parser;
 use indicatif::ProgressBar;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Options of `chart`.
-#[derive(Debug, Parser)]
-pub struct Options {
-    /// What to chart
-    #[arg(value_enum)]
-    what: What,
-    /// Where the table goes
-    #[arg(long, default_value = "out/chart")]
-    out: PathBuf,
-    /// One JSON document instead of a table
-    #[arg(long)]
-    json: bool,
-}
-
-/// What can be charted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum What {
-    /// The longest step of each method on each problem, how it fails beyond, and what was foretold
-    Stability,
-}
-
-/// Charts.
-pub fn chart(options: &Options) -> ExitCode {
-    let What::Stability = options.what;
+/// Scans all methods on all problems.
+pub(super) fn scan_steps(options: &Options) -> ExitCode {
     let bar = ProgressBar::new(0);
     let scan = scan(&|done, all| {
         bar.set_length(all as u64);

@@ -1,0 +1,233 @@
+//! Limits of a control loop as text, CSV and JSON.
+
+use crate::stability::loop_limits::{
+    ACCELEROMETER_NOISE, Cell, Footing, Found, GYROSCOPE_NOISE, HALVINGS, Manner, Quantity, Survey,
+    Tolerance,
+};
+use serde::Serialize;
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::Path;
+use surefoot::balance::SafetyLimits;
+
+/// A row of the CSV file: one limit.
+#[derive(Serialize)]
+struct Row {
+    quantity: Quantity,
+    footing: String,
+    unit: &'static str,
+    in_scene: Option<f64>,
+    kind: &'static str,
+    value: f64,
+    fails_from: Option<f64>,
+    manner: &'static str,
+    tolerance: f64,
+    tolerance_is_relative: bool,
+    longest_step_s: f64,
+    value_at_half_step: f64,
+    manner_at_half_step: &'static str,
+    steps_agree: bool,
+    least_over_steps: f64,
+    greatest_over_steps: f64,
+}
+
+/// A table: a row for each quantity, columns for each footing.
+pub(super) fn text(survey: &Survey, cells: &[Cell]) -> String {
+    let mut out = String::new();
+    let scene = survey.scene;
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        out,
+        "Limits of {}. A value works if {}.\n\nFrom the easy end of its range each is tried outward until \
+         the first that fails, and bisected before that;\nwhether something beyond works again is not \
+         asked. Halving the step changes a limit by less than its tolerance, but for ~.\n",
+        scene.name,
+        survey.criterion.words(),
+    );
+    let columns = Footing::of(scene);
+    let _ = write!(out, "{:<23}{:>10}{:>9}", "", "scene", "within");
+    for footing in columns {
+        let _ = write!(
+            out,
+            "  │{:>11}  {:<17}{:>9}{:>11}",
+            footing.words(),
+            "then",
+            "step",
+            "half step"
+        );
+    }
+    out.push('\n');
+    let mut notes = String::new();
+    for quantity in survey.quantities {
+        let row: Vec<&Cell> = cells.iter().filter(|cell| cell.quantity == *quantity).collect();
+        if row.is_empty() {
+            continue;
+        }
+        let own = quantity.of(scene).map_or("–".into(), |x| shown(*quantity, x));
+        let within = match quantity.tolerance() {
+            Tolerance::Relative(share) => format!("{} %", 100.0 * share),
+            Tolerance::Absolute(x) => shown(*quantity, x),
+        };
+        let _ = write!(out, "{:<23}{own:>10}{within:>9}", quantity.words());
+        for cell in row {
+            let (Some(limit), Some(half)) = (cell.limit(), cell.at_half_step()) else {
+                continue;
+            };
+            let mark = if cell.agrees() { "" } else { "~" };
+            let _ = write!(
+                out,
+                "  │{:>11}  {:<17}{:>9}{:>11}",
+                format!("{mark}{}", found(*quantity, &limit.found)),
+                limit.found.manner().map_or("–", Manner::words),
+                format!("{} ms", 1e3 * limit.longest_step_s),
+                found(*quantity, &half.found),
+            );
+            note(&mut notes, cell);
+        }
+        out.push('\n');
+    }
+    out.push_str(&notes);
+    out.push_str(&references(survey, cells));
+    out
+}
+
+/// What multiples and shares are of.
+fn references(survey: &Survey, cells: &[Cell]) -> String {
+    let mut out = String::new();
+    let has = |quantity| cells.iter().any(|cell| cell.quantity == quantity);
+    if has(Quantity::GainScale) {
+        out.push_str("Gains: Kp times the scale, Kv times its root.\n");
+    }
+    if has(Quantity::Noise) {
+        let _ = writeln!(
+            out,
+            "Sensor noise: times {GYROSCOPE_NOISE:.2e} rad/s/√Hz and {ACCELEROMETER_NOISE:.2e} m/s²/√Hz \
+             (an MPU-6050's); seed {}.",
+            survey.scene.sensing.seed,
+        );
+    }
+    if has(Quantity::TorqueShare) {
+        let limits = SafetyLimits::<f64>::biped().joint_torque;
+        let _ = writeln!(out, "Torque limits: of {limits:?} N·m, hip to foot.");
+    }
+    out
+}
+
+/// What a cell's figures do not say.
+fn note(out: &mut String, cell: &Cell) {
+    let (quantity, place) = (cell.quantity, cell.footing.words());
+    let Some(limit) = cell.limit() else { return };
+    let _ = match limit.found {
+        Found::Limit { .. } => Ok(()),
+        Found::EasyEndFails { at, .. } => {
+            let at = shown(quantity, at);
+            writeln!(out, "! {}, {place}: the easy end of its range, {at}, fails", quantity.words())
+        }
+        Found::FarEndWorks { to } => {
+            let to = shown(quantity, to);
+            writeln!(out, "! {}, {place}: the far end of its range, {to}, works", quantity.words())
+        }
+    };
+    if !cell.agrees() {
+        let (low, high) = cell.spread();
+        let _ = writeln!(
+            out,
+            "~ {}, {place}: no two steps down to 1/{} of the scene's agree; they find {} to {}",
+            quantity.words(),
+            1 << HALVINGS,
+            shown(quantity, low),
+            shown(quantity, high),
+        );
+    }
+}
+
+fn found(quantity: Quantity, found: &Found<Manner>) -> String {
+    let value = shown(quantity, found.value());
+    match found {
+        Found::Limit { .. } => value,
+        Found::EasyEndFails { .. } => format!("!{value}"),
+        Found::FarEndWorks { .. } => format!("!{value}"),
+    }
+}
+
+/// As many digits as the tolerance is worth, in a unit that people use.
+fn shown(quantity: Quantity, value: f64) -> String {
+    let digits = |x: f64| (2 - x.abs().max(1e-9).log10().floor() as i32).clamp(0, 6) as usize;
+    match quantity {
+        Quantity::Delay => format!("{:.1} ms", 1e3 * value),
+        Quantity::SetPointHeight => format!("{:.2} cm", 100.0 * value),
+        Quantity::TorqueShare => format!("{:.1} %", 100.0 * value),
+        Quantity::BlockSpeed | Quantity::ControlRate => {
+            format!("{value:.*} {}", digits(value), quantity.unit())
+        }
+        Quantity::GainScale | Quantity::Noise => format!("{value:.*}×", digits(value)),
+        Quantity::Friction => format!("{value:.*}", digits(value)),
+    }
+}
+
+fn rows(survey: &Survey, cells: &[Cell]) -> Vec<Row> {
+    let row = |cell: &Cell| {
+        let (limit, half) = (cell.limit()?, cell.at_half_step()?);
+        let (tolerance, tolerance_is_relative) = match cell.quantity.tolerance() {
+            Tolerance::Relative(share) => (share, true),
+            Tolerance::Absolute(distance) => (distance, false),
+        };
+        let (kind, fails_from) = match limit.found {
+            Found::Limit { fails, .. } => ("limit", Some(fails)),
+            Found::EasyEndFails { at, .. } => ("easy-end-fails", Some(at)),
+            Found::FarEndWorks { .. } => ("far-end-works", None),
+        };
+        let words = |found: &Found<Manner>| found.manner().map_or("none", Manner::words);
+        let (least_over_steps, greatest_over_steps) = cell.spread();
+        Some(Row {
+            quantity: cell.quantity,
+            footing: cell.footing.words(),
+            unit: cell.quantity.unit(),
+            in_scene: cell.quantity.of(survey.scene),
+            kind,
+            value: limit.found.value(),
+            fails_from,
+            manner: words(&limit.found),
+            tolerance,
+            tolerance_is_relative,
+            longest_step_s: limit.longest_step_s,
+            value_at_half_step: half.found.value(),
+            manner_at_half_step: words(&half.found),
+            steps_agree: cell.agrees(),
+            least_over_steps,
+            greatest_over_steps,
+        })
+    };
+    cells.iter().filter_map(row).collect()
+}
+
+/// One row a limit.
+pub(super) fn write_csv(path: &Path, survey: &Survey, cells: &[Cell]) -> Result<(), csv::Error> {
+    let mut writer = csv::Writer::from_path(path)?;
+    for row in rows(survey, cells) {
+        writer.serialize(row)?;
+    }
+    Ok(writer.flush()?)
+}
+
+/// Everything, searches at all steps included.
+pub(super) fn json(survey: &Survey, cells: &[Cell]) -> Value {
+    let searched: Vec<Value> = survey
+        .quantities
+        .iter()
+        .filter_map(|quantity| {
+            let (ladder, tolerance) = (quantity.ladder(survey.scene)?, quantity.tolerance());
+            Some(json!({ "quantity": quantity, "unit": quantity.unit(), "ladder": ladder, "tolerance": tolerance }))
+        })
+        .collect();
+    json!({
+        "chart": "stability",
+        "scene": survey.scene.name,
+        "criterion": survey.criterion,
+        "works_if": survey.criterion.words().replace('\n', " "),
+        "islands_beyond_the_first_failure": "not looked for",
+        "searched": searched,
+        "limits": rows(survey, cells),
+        "cells": cells,
+    })
+}

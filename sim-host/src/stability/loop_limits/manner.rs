@@ -1,0 +1,223 @@
+//! How a run fails, told from its record.
+//!
+//! A run that does not work is *lost* at a moment, in a first manner; the first of these that holds:
+//! 1. some joint's torque went beyond [`RUNAWAY`] times what the biped's motors are made for. So end most:
+//!    the controller takes the feet for fixed, and where they are not, their rates enter its torques
+//!    squared, which so square themselves from tick to tick. If all soles had left flat contact more than
+//!    [`RUNAWAY_TICKS`] ticks before, the robot had tipped or lifted off, and the torques only followed:
+//!    it tips; else the loop itself ran away;
+//! 2. the run ended while the body leant by more than [`LEANING_DEG`]: it tips;
+//! 3. it fell without leaning: its legs collapsed;
+//! 4. the controller had a fault, or the simulator could not make a step;
+//! 5. none of these, but it is not at the set point when it should be.
+//!
+//! That is what became of it; why may lie before. The loss is at the end, but for 1 (before that torque)
+//! and 2; for these two it is no later than the last sample at which a sole was flat on the floor: what
+//! feet do in the air or on an edge is no reason any more. Over the [`BEFORE_S`] before it,
+//! - if at half of the samples or more some joint's torque was at its limit, it is the torque limit;
+//! - else, if some corner of a sole has moved along the floor by more than [`SLIP_M`] while it was down,
+//!   the foot slipped;
+//! - else it is the first manner.
+//!
+//! Corners' ways are sums of displacements between samples at both of which the corner is down, and between
+//! which its foot has not lifted off: one that rocks to and fro goes nowhere, and one that steps has not
+//! slipped. A slide that ended well is no reason for a loss that comes later: robots live through slides of
+//! several centimetres.
+
+use super::criterion::{Criterion, last_seconds};
+use crate::closed_loop::Run;
+use crate::contact::ContactState;
+use crate::record::{EventKind, Sample};
+use crate::scene::{Feet, Scene};
+use nalgebra::{Vector2, Vector3};
+use serde::{Deserialize, Serialize};
+use surefoot::balance::{Fault, SafetyLimits};
+use surefoot::dynamics::{body_poses, joint_poses};
+use surefoot::model::robots::biped::{FEET, TREE};
+use surefoot::spatial::Quaternion;
+
+/// How a run fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Manner {
+    /// A foot slips.
+    Slip,
+    /// The robot tips over the edges of its soles, or lifts off them.
+    Tip,
+    /// The legs give way under an upright body.
+    Collapse,
+    /// The torques run away while a sole is flat on the floor: the loop is unstable.
+    Runaway,
+    /// The motors' limits are too low.
+    TorqueLimit,
+    /// A leg becomes singular.
+    SingularLeg,
+    /// The controller has another fault.
+    ControllerFault,
+    /// The simulator cannot make a step.
+    StepFailure,
+    /// It is upright at the end, but not at rest at the set point.
+    DoesNotSettle,
+    /// The legs do not reach the set point: there is nothing to run.
+    NotReachable,
+}
+
+/// Torques of so many times [`SafetyLimits::biped`] are a runaway.
+pub const RUNAWAY: f64 = 3.0;
+/// Ticks that a runaway takes: soles that it tears off the floor are off it for no longer.
+pub const RUNAWAY_TICKS: usize = 5;
+/// A body leans that is tilted by more than this.
+pub const LEANING_DEG: f64 = 30.0;
+/// Time before the loss in which its reason is looked for, s.
+pub const BEFORE_S: f64 = 1.0;
+/// Way along the floor of a corner that slips, m.
+pub const SLIP_M: f64 = 0.03;
+
+/// As events name them.
+const FOOT_NAMES: [&str; 2] = ["left foot", "right foot"];
+
+impl Manner {
+    /// For people.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Slip => "slip",
+            Self::Tip => "tip",
+            Self::Collapse => "collapse",
+            Self::Runaway => "runaway",
+            Self::TorqueLimit => "torque limit",
+            Self::SingularLeg => "singular leg",
+            Self::ControllerFault => "controller fault",
+            Self::StepFailure => "simulator's step",
+            Self::DoesNotSettle => "does not settle",
+            Self::NotReachable => "not reachable",
+        }
+    }
+}
+
+/// What there is to judge a run by.
+#[derive(Clone, Copy, Debug)]
+pub struct Ending<'a> {
+    /// What was run.
+    pub scene: &'a Scene,
+    /// Its record.
+    pub run: &'a Run,
+    /// The controller's fault, if that has ended it.
+    pub fault: Option<Fault>,
+}
+
+impl Ending<'_> {
+    /// How the run failed; `None` if it works.
+    pub fn manner(&self, criterion: &Criterion) -> Option<Manner> {
+        let (first, end) = self.loss(criterion)?;
+        let before = last_seconds(&self.run.samples[..end], BEFORE_S);
+        if 2 * before.iter().filter(|sample| self.is_cut(sample)).count() >= before.len().max(1) {
+            return Some(Manner::TorqueLimit);
+        }
+        Some(if self.slide(before) > SLIP_M { Manner::Slip } else { first })
+    }
+
+    /// The first manner of the loss, and the number of samples before it; `None` if there is none.
+    fn loss(&self, criterion: &Criterion) -> Option<(Manner, usize)> {
+        let samples = &self.run.samples;
+        let failure = self.run.failure.as_ref();
+        if failure.is_none() && criterion.is_settled(samples, &self.scene.set_point) {
+            return None;
+        }
+        if let Some(runaway) = samples.iter().position(runs_away) {
+            let flat = samples_to_last_flat_sole(&samples[..runaway]);
+            let tipped = runaway - flat > RUNAWAY_TICKS;
+            return Some((if tipped { Manner::Tip } else { Manner::Runaway }, flat));
+        }
+        if failure.is_some() && samples.last().is_some_and(leans) {
+            return Some((Manner::Tip, samples_to_last_flat_sole(samples)));
+        }
+        let manner = match (failure, self.fault) {
+            (None, _) => Manner::DoesNotSettle,
+            (Some(failure), _) if failure.kind == "fell" => Manner::Collapse,
+            (_, Some(Fault::SingularLeg { .. })) => Manner::SingularLeg,
+            (_, Some(_)) => Manner::ControllerFault,
+            (_, None) => Manner::StepFailure,
+        };
+        Some((manner, samples.len()))
+    }
+
+    /// Whether some joint's torque is as large as it may be.
+    fn is_cut(&self, sample: &Sample) -> bool {
+        let Some(limits) = self.scene.acting.torque_limits_nm else { return false };
+        let legs = sample.torques.iter().zip(limits.iter().cycle());
+        legs.into_iter().any(|(torque, limit)| torque.abs() >= limit * (1.0 - 1e-9))
+    }
+
+    /// The longest way of a corner along the floor, m; none where feet are welded.
+    fn slide(&self, samples: &[Sample]) -> f64 {
+        let Feet::Floor { outline, .. } = &self.scene.feet else { return 0.0 };
+        let corners = outline.sole().corners();
+        let mut ways = [[Vector2::<f64>::zeros(); 4]; 2];
+        let down: Vec<_> = samples.iter().map(|sample| corners_down(sample, &corners)).collect();
+        for (times, places) in samples.windows(2).zip(down.windows(2)) {
+            for foot in 0..2 {
+                if self.lifts_off(foot, times[0].time_s, times[1].time_s) {
+                    continue;
+                }
+                for (corner, way) in ways[foot].iter_mut().enumerate() {
+                    if let [Some(from), Some(to)] = [0, 1].map(|end| places[end][foot][corner]) {
+                        *way += to - from;
+                    }
+                }
+            }
+        }
+        ways.iter().flatten().map(Vector2::norm).fold(0.0, f64::max)
+    }
+
+    /// Whether a foot has been off the floor between two samples.
+    fn lifts_off(&self, foot: usize, after_s: f64, until_s: f64) -> bool {
+        self.run.events.iter().any(|event| {
+            event.kind == EventKind::LiftOff
+                && event.place == FOOT_NAMES[foot]
+                && event.time_s > after_s
+                && event.time_s <= until_s
+        })
+    }
+}
+
+fn runs_away(sample: &Sample) -> bool {
+    let limits = SafetyLimits::<f64>::biped().joint_torque;
+    let legs = sample.torques.iter().zip(limits.iter().cycle());
+    legs.into_iter().any(|(torque, limit)| !(torque.abs() <= RUNAWAY * limit))
+}
+
+fn leans(sample: &Sample) -> bool {
+    let [s, x, y, z] = std::array::from_fn(|i| sample.positions[3 + i]);
+    let up = Quaternion::from_array([s, x, y, z]).rotate(Vector3::z()).z;
+    !(up >= LEANING_DEG.to_radians().cos())
+}
+
+/// How many samples there are up to the last with a flat sole; none if there is no such sample.
+fn samples_to_last_flat_sole(samples: &[Sample]) -> usize {
+    samples.iter().rposition(has_flat_sole).map_or(0, |last| last + 1)
+}
+
+/// Whether all corners of a sole are down.
+fn has_flat_sole(sample: &Sample) -> bool {
+    // Feet without contact points are welded.
+    sample.contacts.is_none_or(|feet| feet.iter().any(|sole| sole.iter().all(|c| is_down(*c))))
+}
+
+fn is_down(state: ContactState) -> bool {
+    !matches!(state, ContactState::Free | ContactState::NegativeNormalForce)
+}
+
+/// Where on the floor the corners are that are down, m.
+fn corners_down(sample: &Sample, corners: &[Vector3<f64>; 4]) -> [[Option<Vector2<f64>>; 4]; 2] {
+    let (Some(contacts), Ok(joints)) = (sample.contacts, joint_poses(&TREE, &sample.positions))
+    else {
+        return [[None; 4]; 2];
+    };
+    let poses = body_poses(&TREE, &joints);
+    std::array::from_fn(|foot| {
+        let pose = &poses[FEET[foot]];
+        std::array::from_fn(|corner| {
+            is_down(contacts[foot][corner]).then(|| pose.transform_point(corners[corner]).xy())
+        })
+    })
+}
