@@ -94,14 +94,19 @@ fn trial(scene: &Scene, quantity: Quantity, outline: Outline) -> Trial<'_> {
 /// fails in the manner that was told.
 #[test]
 fn limits_of_real_runs_hold() {
-    let scene = experiment_1();
-    for (quantity, outline, step, harder, expected) in [
-        (Quantity::Friction, Outline::A, 2e-3, 0.97, Manner::Slip),
-        (Quantity::Friction, Outline::M, 1e-3, 0.97, Manner::Slip),
-        (Quantity::GainScale, Outline::A, 5e-4, 1.03, Manner::Tip),
+    let rises = experiment_1();
+    let is_struck = load("experiment-2").expect("built in");
+    for (scene, quantity, outline, step, harder, expected) in [
+        (&rises, Quantity::Friction, Outline::A, 2e-3, 0.97, Manner::Slip),
+        (&rises, Quantity::Friction, Outline::M, 1e-3, 0.97, Manner::Slip),
+        (&rises, Quantity::GainScale, Outline::A, 5e-4, 1.03, Manner::Tip),
+        (&is_struck, Quantity::BlockSpeed, Outline::A, 2e-3, 1.03, Manner::Tip),
+        (&is_struck, Quantity::Delay, Outline::A, 1e-3, 1.03, Manner::Tip),
+        (&is_struck, Quantity::Noise, Outline::A, 2e-3, 1.03, Manner::DoesNotSettle),
+        (&is_struck, Quantity::TorqueShare, Outline::A, 2e-3, 0.97, Manner::TorqueLimit),
     ] {
-        let trial = trial(&scene, quantity, outline);
-        let ladder = quantity.ladder(&scene).expect("a robot on a floor");
+        let trial = trial(scene, quantity, outline);
+        let ladder = quantity.ladder(scene).expect("a robot on a floor");
         let limit = search(ladder, Tolerance::Relative(0.02), |x| trial.attempt(x, step))
             .expect("values that the scene may have");
         println!("{quantity:?}, {outline:?}: {limit:?}");
@@ -122,7 +127,11 @@ fn quantities_are_set_in_the_scene() {
             assert_eq!(quantity, Quantity::BlockSpeed, "only a block is missing");
             continue;
         }
-        let value = if quantity == Quantity::ControlRate { 333.0 } else { 1.07 };
+        let value = match quantity {
+            Quantity::ControlRate => 333.0,
+            Quantity::Delay => 0.07,
+            _ => 1.07,
+        };
         let changed = trial.scene_at(value, 2e-3);
         changed.check().unwrap_or_else(|error| panic!("{quantity:?}: {error}"));
         assert!(changed.integrator.step_s <= 2e-3);

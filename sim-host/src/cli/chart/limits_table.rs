@@ -1,8 +1,8 @@
 //! Limits of a control loop as text, CSV and JSON.
 
 use crate::stability::loop_limits::{
-    ACCELEROMETER_NOISE, Cell, Footing, Found, GYROSCOPE_NOISE, HALVINGS, Manner, Quantity, Survey,
-    Tolerance,
+    ACCELEROMETER_NOISE, Cell, Footing, Found, GYROSCOPE_NOISE, HALVINGS, Manner, Quantity,
+    RUNAWAY, Survey, Tolerance,
 };
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -51,7 +51,7 @@ pub(super) fn text(survey: &Survey, cells: &[Cell]) -> String {
             out,
             "  │{:>11}  {:<17}{:>9}{:>11}",
             footing.words(),
-            "then",
+            "fails by",
             "step",
             "half step"
         );
@@ -104,6 +104,16 @@ fn references(survey: &Survey, cells: &[Cell]) -> String {
             "Sensor noise: times {GYROSCOPE_NOISE:.2e} rad/s/√Hz and {ACCELEROMETER_NOISE:.2e} m/s²/√Hz \
              (an MPU-6050's); seed {}.",
             survey.scene.sensing.seed,
+        );
+    }
+    let runs_away = |cell: &Cell| {
+        cell.limit().is_some_and(|limit| limit.found.manner() == Some(Manner::Runaway))
+    };
+    if cells.iter().any(runs_away) {
+        let _ = writeln!(
+            out,
+            "Runaway: torques beyond {RUNAWAY} times the biped's limits with a sole flat on the floor, or not \
+             for long off it."
         );
     }
     if has(Quantity::TorqueShare) {

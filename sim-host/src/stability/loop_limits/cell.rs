@@ -8,7 +8,7 @@ use crate::scene::SceneError;
 use serde::{Deserialize, Serialize};
 
 /// The shortest step that is tried, as a share of the first: 1/2⁴.
-pub const HALVINGS: usize = 4;
+pub const HALVINGS: usize = 6;
 
 /// What a search finds with steps of a length.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

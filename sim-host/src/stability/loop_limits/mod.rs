@@ -9,7 +9,8 @@
 //! A value works if the run meets the [`Criterion`]. It is looked for from the easy end of its
 //! [`Ladder`] outward, and bisected between the first value that fails and the one before; islands beyond
 //! are not looked for. Each limit is that of a step of the simulator that may be halved without moving it
-//! by more than the search's [`Tolerance`]; where there is none down to a sixteenth, the cell says so.
+//! by more than the search's [`Tolerance`]; where there is none down to a sixty-fourth, the cell says
+//! so.
 
 mod cell;
 mod criterion;
