@@ -9,7 +9,7 @@ pub struct Event {
     pub time_s: f64,
     /// What.
     pub kind: EventKind,
-    /// Where: "left foot" or "right foot"; or "point 3", counted from 1.
+    /// Where: "left foot", "right foot" or "central body"; or "point 3", counted from 1.
     #[serde(rename = "where")]
     pub place: String,
 }
@@ -26,6 +26,18 @@ pub enum EventKind {
     SlipStart,
     /// No corner of the foot slides any more.
     SlipEnd,
+    /// The heel's last corner leaves the floor while the toe is down.
+    HeelOff,
+    /// The heel's first corner touches the floor again while the toe is down.
+    HeelDown,
+    /// The toe's last corner leaves the floor while the heel is down.
+    ToeOff,
+    /// The toe's first corner touches the floor again while the heel is down.
+    ToeDown,
+    /// A thrown block strikes the body.
+    Strike,
+    /// It parts from the body.
+    StrikeEnd,
 }
 
 impl std::fmt::Display for EventKind {
@@ -35,6 +47,12 @@ impl std::fmt::Display for EventKind {
             Self::LiftOff => "lifts off",
             Self::SlipStart => "starts to slip",
             Self::SlipEnd => "stops slipping",
+            Self::HeelOff => "raises its heel",
+            Self::HeelDown => "sets down its heel",
+            Self::ToeOff => "raises its toe",
+            Self::ToeDown => "sets down its toe",
+            Self::Strike => "is struck by the block",
+            Self::StrikeEnd => "is rid of the block",
         })
     }
 }
