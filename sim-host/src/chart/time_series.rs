@@ -67,7 +67,7 @@ impl TimeSeries<'_> {
     }
 
     fn paint(&self, root: &DrawingArea<SVGBackend<'_>, Shift>) -> Painted {
-        let area = root.titled(&self.title, font(20))?;
+        let area = root.margin(at(8), 0, 0, 0).titled(&self.title, font(20))?;
         let areas = area.split_evenly((self.panels.len(), 1));
         for (i, (panel, area)) in self.panels.iter().zip(areas).enumerate() {
             let (plot, legend) = area.split_horizontally(points(WIDTH - LEGEND_WIDTH));
@@ -87,6 +87,7 @@ impl TimeSeries<'_> {
             .caption(&panel.title, font(16))
             .margin_left(at(10))
             .margin_right(at(12))
+            .margin_top(at(6))
             .margin_bottom(at(6))
             .x_label_area_size(at(38))
             .y_label_area_size(at(74))

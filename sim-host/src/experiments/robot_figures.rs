@@ -109,6 +109,16 @@ fn made(name: &str) -> Result<(crate::scene::Scene, Run), RobotFigureFailure> {
     }
 }
 
+/// The number of a scene's figure by its place among [`RUN_FIGURES`], if the text has that figure.
+pub fn number(scene: &str, place: usize) -> Option<&'static str> {
+    let names = match scene {
+        "experiment-1" => &EXPERIMENT_1[..],
+        "experiment-2" => &EXPERIMENT_2[1..],
+        _ => return None,
+    };
+    Some(names.get(place)?.trim_start_matches("figure-"))
+}
+
 /// The eight charts under their numbers.
 fn charts(
     names: &[&'static str],

@@ -1,6 +1,7 @@
 //! The robot as a thing to look at: solids on its bodies, stills, the poses that a replay plays.
 
 mod frames;
+mod placed;
 mod robot;
 mod shown;
 mod solid;

@@ -1,7 +1,8 @@
 //! A picture of a moment, as SVG.
 
+use super::placed::{Placed, back_to_front};
 use super::view::View;
-use super::{FORCE_LENGTH, Shown, Solid, body_poses_at};
+use super::{FORCE_LENGTH, Shown, body_poses_at};
 use crate::chart::OKABE_ITO;
 use crate::record::Sample;
 use nalgebra::Vector3;
@@ -60,7 +61,7 @@ fn scene(
         PIXELS_PER_METRE,
         [WIDTH / 2.0, 0.53 * HEIGHT],
     );
-    let mut solids: Vec<(Placed, Color)> = shown
+    let mut solids: Vec<(Placed<'_>, Color)> = shown
         .solids
         .iter()
         .zip(poses)
@@ -75,12 +76,11 @@ fn scene(
     }
     floor(svg, &view, center)?;
     for (solid, _) in &solids {
-        solid.shadow(svg, &view)?;
+        paint_shadow(svg, &view, solid)?;
     }
-    // Painter's order: what is nearer is painted later. The solids are convex and hardly overlap.
-    solids.sort_by(|a, b| view.nearness(&a.0.middle()).total_cmp(&view.nearness(&b.0.middle())));
-    for (solid, color) in &solids {
-        solid.paint(svg, &view, *color)?;
+    for k in back_to_front(&solids, view.eye()) {
+        let (solid, color) = &solids[k];
+        paint_solid(svg, &view, solid, *color)?;
     }
     ground_forces(svg, &view, shown, sample, poses)?;
     writeln!(
@@ -167,64 +167,47 @@ fn arrow(
     )
 }
 
-/// A solid where it is.
-struct Placed<'a> {
-    vertices: Vec<Vector3<f64>>,
-    faces: &'a [Vec<usize>],
+fn paint_solid(
+    svg: &mut String,
+    view: &View,
+    solid: &Placed<'_>,
+    color: Color,
+) -> std::fmt::Result {
+    for face in solid.faces {
+        let normal = solid.normal(face);
+        if view.faces_us(&normal) {
+            let fill = hex(color, brightness(&normal));
+            let points = outline(view, solid, face, |v| *v);
+            writeln!(
+                svg,
+                "<polygon points=\"{points}\" fill=\"{fill}\" stroke=\"#202020\" \
+                 stroke-width=\"0.8\" stroke-linejoin=\"round\"/>"
+            )?;
+        }
+    }
+    Ok(())
 }
 
-impl<'a> Placed<'a> {
-    fn new(solid: &'a Solid, pose: &Pose<f64>) -> Self {
-        let vertex = |v: &[f64; 3]| pose.transform_point((*v).into());
-        Self { vertices: solid.vertices.iter().map(vertex).collect(), faces: &solid.faces }
+/// All faces as the sun at the zenith throws them on the floor.
+fn paint_shadow(svg: &mut String, view: &View, solid: &Placed<'_>) -> std::fmt::Result {
+    for face in solid.faces {
+        let points = outline(view, solid, face, |v| Vector3::new(v.x, v.y, 0.0));
+        writeln!(svg, "<polygon points=\"{points}\" fill=\"#E6E6E6\"/>")?;
     }
+    Ok(())
+}
 
-    fn middle(&self) -> Vector3<f64> {
-        self.vertices.iter().sum::<Vector3<f64>>() / self.vertices.len() as f64
-    }
-
-    fn normal(&self, face: &[usize]) -> Vector3<f64> {
-        let (a, b, c) = (self.vertices[face[0]], self.vertices[face[1]], self.vertices[face[2]]);
-        (b - a).cross(&(c - b)).normalize()
-    }
-
-    fn paint(&self, svg: &mut String, view: &View, color: Color) -> std::fmt::Result {
-        for face in self.faces {
-            let normal = self.normal(face);
-            if view.faces_us(&normal) {
-                let fill = hex(color, brightness(&normal));
-                let points = self.outline(view, face, |v| *v);
-                writeln!(
-                    svg,
-                    "<polygon points=\"{points}\" fill=\"{fill}\" stroke=\"#202020\" \
-                     stroke-width=\"0.8\" stroke-linejoin=\"round\"/>"
-                )?;
-            }
-        }
-        Ok(())
-    }
-
-    /// All faces as the sun at the zenith throws them on the floor.
-    fn shadow(&self, svg: &mut String, view: &View) -> std::fmt::Result {
-        for face in self.faces {
-            let points = self.outline(view, face, |v| Vector3::new(v.x, v.y, 0.0));
-            writeln!(svg, "<polygon points=\"{points}\" fill=\"#E6E6E6\"/>")?;
-        }
-        Ok(())
-    }
-
-    fn outline(
-        &self,
-        view: &View,
-        face: &[usize],
-        of: impl Fn(&Vector3<f64>) -> Vector3<f64>,
-    ) -> String {
-        let point = |i: &usize| {
-            let [x, y] = view.project(&of(&self.vertices[*i]));
-            format!("{x:.1},{y:.1}")
-        };
-        face.iter().map(point).collect::<Vec<_>>().join(" ")
-    }
+fn outline(
+    view: &View,
+    solid: &Placed<'_>,
+    face: &[usize],
+    of: impl Fn(&Vector3<f64>) -> Vector3<f64>,
+) -> String {
+    let point = |i: &usize| {
+        let [x, y] = view.project(&of(&solid.vertices[*i]));
+        format!("{x:.1},{y:.1}")
+    };
+    face.iter().map(point).collect::<Vec<_>>().join(" ")
 }
 
 /// Of a face with this normal, under a lamp above and to the left of the robot.

@@ -40,9 +40,9 @@ impl View {
         [self.middle[0] + self.right.dot(&arm), self.middle[1] - self.up.dot(&arm)]
     }
 
-    /// How near a point is to the eye, m; only differences mean something.
-    pub(super) fn nearness(&self, point: &Vector3<f64>) -> f64 {
-        self.towards.dot(point)
+    /// A point so far towards the eye that it stands for an eye at infinity.
+    pub(super) fn eye(&self) -> Vector3<f64> {
+        self.center + self.towards * 1e3
     }
 
     /// Whether a face with this normal is seen from its front.

@@ -4,7 +4,7 @@ use super::replay_data::ReplayData;
 use super::tables::{self, Fact, Peak, Place, Printed};
 use crate::chart::{ChartError, RUN_FIGURES};
 use crate::closed_loop::{Failure, Outcome, Run};
-use crate::experiments::reading;
+use crate::experiments::{reading, robot_figures};
 use crate::picture::{FORCE_LENGTH, Shown, TORQUE_LENGTH};
 use crate::scene::{Scene, TorquesFrom};
 use askama::Template;
@@ -127,10 +127,12 @@ fn embedded(data: &ReplayData) -> Result<String, serde_json::Error> {
 /// The figures as they stand in a page, which needs no namespace.
 fn figures(scene: &str, run: &Run) -> Result<Vec<String>, ChartError> {
     let figure = |svg: String| svg.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1);
-    RUN_FIGURES
-        .iter()
-        .map(|chart| Ok(figure(chart.svg(scene, &run.samples, &run.events)?)))
-        .collect()
+    let of = |place: usize| match robot_figures::number(scene, place) {
+        Some(number) => format!("{scene}, as figure {number}"),
+        None => scene.to_owned(),
+    };
+    let charts = RUN_FIGURES.iter().enumerate();
+    charts.map(|(i, chart)| Ok(figure(chart.svg(&of(i), &run.samples, &run.events)?))).collect()
 }
 
 fn word(outcome: Outcome) -> Word {
@@ -187,7 +189,7 @@ mod tests {
         let (_, page) = made(|_| {});
         assert_eq!(page.matches("<svg").count(), RUN_FIGURES.len());
         for figure in RUN_FIGURES {
-            assert!(page.contains(&format!("experiment-1: {}", figure.title)), "{}", figure.name);
+            assert!(page.contains(&format!(": {}", figure.title)), "{}", figure.name);
         }
         for text in ["1687 N", "192 N·m", "toe rises", "touches down", "torques from t = 0"] {
             assert!(page.contains(text), "{text}");

@@ -44,7 +44,7 @@ function draw() {
     (_, i) => between(pose(replay.poses, k, i, count), pose(replay.poses, next, i, count), part),
   );
   const nearest = part < 0.5 ? k : next;
-  camera.aim([poses[0][0], poses[0][1], 0.78], width, height);
+  camera.aim([poses[0][0], poses[0][1], 0.75], width, height);
   const solids = replay.bodies.map((body, i) => place(body, poses[i], COLORS[body.group]));
   if (replay.block) {
     const at = between(pose(replay.block_poses, k, 0, 1), pose(replay.block_poses, next, 0, 1), part);

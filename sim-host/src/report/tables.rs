@@ -68,7 +68,7 @@ pub(super) fn peaks(run: &Run) -> Vec<Peak> {
     let Some(peaks) = Peaks::of(&run.samples) else { return Vec::new() };
     let row = |name: String, peak: crate::closed_loop::Peak, unit: &str| Peak {
         name,
-        value: format!("{:.1} {unit}", peak.value),
+        value: with_minus(&format!("{:.1} {unit}", peak.value)),
         time: format!("{:.3}", peak.time_s),
     };
     let mut rows = vec![row("desired force along z".to_owned(), peaks.force_z, "N")];
@@ -102,7 +102,7 @@ pub(super) fn printed(scene: &str, runs: &[(TorquesFrom, &Run)]) -> Vec<Printed>
     let Some(first) = columns.iter().find(|rows| !rows.is_empty()) else { return Vec::new() };
     let of_row = |row: &Comparison| Printed {
         name: row.figure.clone(),
-        printed: format!("{} {}", row.printed, row.unit),
+        printed: with_minus(&format!("{} {}", row.printed, row.unit)),
         // A run without samples has no rows.
         ours: columns
             .iter()
@@ -115,11 +115,17 @@ pub(super) fn printed(scene: &str, runs: &[(TorquesFrom, &Run)]) -> Vec<Printed>
 fn ours(row: Option<&Comparison>) -> Ours {
     let Some(row) = row else { return Ours { value: String::new(), difference: String::new() } };
     Ours {
-        value: row.ours_text(),
-        difference: row
-            .relative_difference
-            .map_or_else(|| "–".to_owned(), |difference| format!("{:+.1}%", 100.0 * difference)),
+        value: with_minus(&row.ours_text()),
+        difference: row.relative_difference.map_or_else(
+            || "–".to_owned(),
+            |difference| with_minus(&format!("{:+.1}%", 100.0 * difference)),
+        ),
     }
+}
+
+/// With a minus sign as wide as the figures.
+fn with_minus(number: &str) -> String {
+    number.replace('-', "−")
 }
 
 /// Events of one place.

@@ -32,7 +32,7 @@ class Camera {
   reset() {
     this.azimuth = -2.25;
     this.elevation = 0.2;
-    this.distance = 3.6;
+    this.distance = 3.1;
   }
 
   orbit(dx, dy) {
@@ -64,9 +64,6 @@ class Camera {
   }
 }
 
-// Solids overlap by this much (m) at their joints and still count as beside each other.
-const OVERLAP = 0.025;
-
 // A convex solid where it is, with the planes of its faces.
 function place(solid, pose, color) {
   const vertices = solid.vertices.map((vertex) => placed(pose, vertex));
@@ -79,16 +76,19 @@ function place(solid, pose, color) {
   return { vertices, faces, middle, color };
 }
 
-// 1 if b hides nothing of a and may be painted first, -1 for the reverse, 0 where no face tells.
+// 1 if a may hide b and is painted later, -1 for the reverse. The plane that tells is the face, of either
+// solid, behind which the other lies least: at joints solids overlap, and no plane separates them wholly.
 function order(a, b, eye) {
-  const by = (one, other) => {
-    for (const face of one.faces) {
-      const beyond = (v) => dot(face.normal, v) > face.level - OVERLAP;
-      if (other.vertices.every(beyond)) return dot(face.normal, eye) > face.level ? 1 : -1;
+  let [best, nearer] = [-Infinity, 1];
+  for (const [one, other, outside] of [[a, b, -1], [b, a, 1]]) {
+    for (const { normal, level } of one.faces) {
+      const clearance = Math.min(...other.vertices.map((v) => dot(normal, v))) - level;
+      if (clearance <= best) continue;
+      best = clearance;
+      nearer = dot(normal, eye) > level ? outside : -outside;
     }
-    return 0;
-  };
-  return -by(a, b) || by(b, a);
+  }
+  return nearer;
 }
 
 // From the back to the front: one after the other that no other must precede.
@@ -97,7 +97,7 @@ function painted(solids, eye) {
   const waiting = [...solids].sort((a, b) => far(b) - far(a));
   const result = [];
   while (waiting.length > 0) {
-    const free = waiting.findIndex((a) => waiting.every((b) => a === b || order(a, b, eye) >= 0));
+    const free = waiting.findIndex((a) => waiting.every((b) => a === b || order(a, b, eye) < 0));
     result.push(...waiting.splice(Math.max(free, 0), 1));
   }
   return result;
@@ -196,7 +196,7 @@ function paintContact(context, camera, point, state) {
   const sliding = state === 2 || state === 5 || state === 6;
   context.beginPath();
   if (sliding) context.rect(x - 4, y - 4, 8, 8); else context.arc(x, y, 4, 0, 2 * Math.PI);
-  context.fillStyle = state === 1 ? "#ffffff" : sliding ? "#e69f00" : "#009e73";
+  context.fillStyle = state === 1 ? "#ffffff" : sliding ? "#f0e442" : "#000000";
   context.fill();
   context.lineWidth = 1.2;
   context.strokeStyle = "#202020";
