@@ -24,19 +24,23 @@ const SETTINGS: [&str; 10] = [
     "--allow-file-access-from-files",
 ];
 
-/// A folder of this process, made afresh.
+/// A folder of the tests' own, which stays.
 pub fn folder(name: &str) -> PathBuf {
-    static COUNT: AtomicU32 = AtomicU32::new(0);
-    let count = COUNT.fetch_add(1, Ordering::Relaxed);
-    let folder = std::env::temp_dir()
-        .join(format!("surefoot-browser-{}-{count}-{name}", std::process::id()));
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("browser").join(name);
     std::fs::create_dir_all(&folder).expect("a folder for temporary files");
     folder
 }
 
+/// A folder for one process.
+fn passing_folder(name: &str) -> PathBuf {
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    let count = COUNT.fetch_add(1, Ordering::Relaxed);
+    folder(&format!("{name}-{}-{count}", std::process::id()))
+}
+
 /// What a window of so many pixels shows of a page; `fragment` is what follows its address.
 pub fn screenshot(page: &Path, fragment: &str, (width, height): (u32, u32)) -> Picture {
-    let folder = folder("screenshot");
+    let folder = passing_folder("screenshot");
     let file = folder.join("screenshot.png");
     let mut screenshot = std::ffi::OsString::from("--screenshot=");
     screenshot.push(&file);
@@ -56,7 +60,7 @@ pub fn document(page: &Path, milliseconds: u32) -> String {
 }
 
 fn chromium(page: &Path, fragment: &str, arguments: &[std::ffi::OsString]) -> Output {
-    let profile = folder("profile");
+    let profile = passing_folder("profile");
     let mut user_data = std::ffi::OsString::from("--user-data-dir=");
     user_data.push(&profile);
     let mut child = Command::new("chromium")

@@ -38,3 +38,50 @@ pub(super) fn longest_apart(
 pub(super) fn first(run: &Run, kind: EventKind) -> Option<f64> {
     run.events.iter().find(|event| event.kind == kind).map(|event| event.time_s)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::closed_loop::{Outcome, Run};
+    use crate::record::Event;
+    use EventKind::{HeelDown, HeelOff, Strike};
+
+    fn run(events: &[(f64, EventKind, &str)]) -> Run {
+        let event = |(time_s, kind, place): &(f64, EventKind, &str)| Event {
+            time_s: *time_s,
+            kind: *kind,
+            place: (*place).to_owned(),
+        };
+        Run {
+            outcome: Outcome::Completed,
+            failure: None,
+            samples: Vec::new(),
+            events: events.iter().map(event).collect(),
+            steps: 0,
+            constraint_max: 0.0,
+            wall: std::time::Duration::ZERO,
+            progress: None,
+            saved: None,
+            costs: None,
+        }
+    }
+
+    #[test]
+    fn bounces_are_not_what_the_text_speaks_of() {
+        let run = run(&[
+            (0.08, Strike, "central body"),
+            (0.10, HeelOff, "left foot"),
+            (0.11, HeelDown, "left foot"),
+            (0.13, HeelOff, "left foot"),
+            (0.14, HeelOff, "right foot"),
+            (0.36, HeelDown, "right foot"),
+            (0.38, HeelDown, "left foot"),
+            (0.39, HeelOff, "left foot"),
+            (0.40, HeelDown, "left foot"),
+        ]);
+        assert_eq!(longest_apart(&run, "left foot", HeelOff, HeelDown), Some((0.13, 0.38)));
+        assert_eq!(longest_apart(&run, "right foot", HeelOff, HeelDown), Some((0.14, 0.36)));
+        assert_eq!(first(&run, Strike), Some(0.08));
+        assert_eq!(first(&run, EventKind::ToeOff), None);
+    }
+}

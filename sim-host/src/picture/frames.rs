@@ -21,3 +21,36 @@ pub fn frames(samples: &[Sample]) -> Vec<usize> {
     }
     frames
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_few_enough_and_have_both_ends() {
+        let sample = |time_s: f64| Sample {
+            time_s,
+            positions: [0.0; 19],
+            velocities: [0.0; 18],
+            torques: [0.0; 12],
+            desired_wrench: [0.0; 6],
+            position_error: [0.0; 3],
+            orientation_error: [1.0, 0.0, 0.0, 0.0],
+            foot_forces: [0.0; 2],
+            contacts: None,
+            energy: [0.0; 2],
+            corner_forces: None,
+            block: None,
+        };
+        let of = |count: u32, rate: f64| -> Vec<usize> {
+            let samples: Vec<Sample> = (0..count).map(|k| sample(f64::from(k) / rate)).collect();
+            frames(&samples)
+        };
+        assert_eq!(of(0, 500.0), [0; 0]);
+        assert_eq!(of(1, 500.0), [0]);
+        assert_eq!(of(12, 100.0), (0..12).collect::<Vec<_>>());
+        assert_eq!(of(12, 500.0), [0, 3, 6, 9, 11]);
+        let long = of(60_001, 500.0);
+        assert!(long.len() <= MOST_FRAMES + 1 && long.last() == Some(&60_000));
+    }
+}

@@ -5,10 +5,13 @@ use crate::scene::{Feet, Scene, SetPoint};
 use nalgebra::Vector3;
 use surefoot::model::robots::biped::SoleOutline;
 
-/// Length of an arrow for a force, m/N.
-pub const FORCE_LENGTH: f64 = 6e-4;
+/// Length of an arrow for a force of the ground or the block, m/N.
+pub const FORCE_LENGTH: f64 = 1e-3;
 
-/// Length of an arrow for a torque, m/(N·m).
+/// Length of an arrow for the desired force, which is that of all corners together, m/N.
+pub const DESIRED_FORCE_LENGTH: f64 = 4e-4;
+
+/// Length of an arrow for the desired torque, m/(N·m).
 pub const TORQUE_LENGTH: f64 = 6e-3;
 
 /// What there is to see of a scene, besides what moves.

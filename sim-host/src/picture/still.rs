@@ -221,3 +221,25 @@ fn hex((red, green, blue): Color, brightness: f64) -> String {
     let part = |part: u8| (f64::from(part) * brightness).clamp(0.0, 255.0).round() as u8;
     format!("#{:02X}{:02X}{:02X}", part(red), part(green), part(blue))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::closed_loop::{Scalar, controller, run};
+    use crate::scene::load;
+
+    #[test]
+    fn a_still_shows_the_robot_and_its_forces_at_the_nearest_sample() {
+        let mut scene = load("experiment-1").expect("a built-in scene");
+        scene.duration_s = 0.4;
+        let run = run(&scene, controller(&scene, Scalar::F64).as_mut(), &mut |_| {});
+        let svg = still(&Shown::of(&scene), &run.samples, 0.3203).expect("a picture");
+        assert!(svg.contains("t = 0.320 s"));
+        // Of each of 13 solids at least two faces are seen, and all throw shadows.
+        assert!(svg.matches("<polygon").count() > 13 * (2 + 6));
+        assert_eq!(svg.matches("<path").count(), 2 * 8, "an arrow at each corner, with its head");
+        assert!(!svg.contains("NaN"));
+        let nothing = still(&Shown::of(&scene), &[], 0.3).expect("an empty picture");
+        assert_eq!(nothing.matches("<polygon").count(), 0);
+    }
+}

@@ -5,7 +5,7 @@ use super::tables::{self, Fact, Peak, Place, Printed};
 use crate::chart::{ChartError, RUN_FIGURES};
 use crate::closed_loop::{Failure, Outcome, Run};
 use crate::experiments::{reading, robot_figures};
-use crate::picture::{FORCE_LENGTH, Shown, TORQUE_LENGTH};
+use crate::picture::{DESIRED_FORCE_LENGTH, FORCE_LENGTH, Shown, TORQUE_LENGTH};
 use crate::scene::{Scene, TorquesFrom};
 use askama::Template;
 
@@ -66,6 +66,7 @@ struct Page<'a> {
     has_block: bool,
     has_contacts: bool,
     force_centimetres: f64,
+    desired_centimetres: f64,
     torque_centimetres: f64,
     style: &'static str,
     script: &'static str,
@@ -112,6 +113,7 @@ pub fn page(report: &Report<'_>) -> Result<String, PageFailure> {
         has_contacts: data.as_ref().is_some_and(|data| !data.contacts.is_empty()),
         replay: data.map(|data| embedded(&data)).transpose()?,
         force_centimetres: (1e4 * FORCE_LENGTH).round(),
+        desired_centimetres: (1e4 * DESIRED_FORCE_LENGTH).round(),
         torque_centimetres: (1e3 * TORQUE_LENGTH).round(),
         style: include_str!("page.css"),
         script: SCRIPT,

@@ -44,7 +44,7 @@ function draw() {
     (_, i) => between(pose(replay.poses, k, i, count), pose(replay.poses, next, i, count), part),
   );
   const nearest = part < 0.5 ? k : next;
-  camera.aim([poses[0][0], poses[0][1], 0.75], width, height);
+  camera.aim([poses[0][0], poses[0][1], 0.78], width, height);
   const solids = replay.bodies.map((body, i) => place(body, poses[i], COLORS[body.group]));
   if (replay.block) {
     const at = between(pose(replay.block_poses, k, 0, 1), pose(replay.block_poses, next, 0, 1), part);
@@ -82,7 +82,7 @@ function drawContacts(poses, k) {
 function drawWrench(body, k) {
   const wrench = replay.wrench.slice(6 * k, 6 * k + 6);
   const [force, torque] = [wrench.slice(0, 3), wrench.slice(3)].map((v) => turned(body.slice(3), v));
-  paintArrow(context, camera, body, scaled(force, replay.force_length), DESIRED_COLOR, 3.5);
+  paintArrow(context, camera, body, scaled(force, replay.desired_force_length), DESIRED_COLOR, 3.5);
   paintArrow(context, camera, body, scaled(torque, replay.torque_length), TORQUE_COLOR, 3.5);
 }
 

@@ -1,7 +1,9 @@
 //! What the page's replay plays, as JSON: numbers are rounded to what can be seen, and kept in flat lists.
 
 use crate::chart::{Mark, marks};
-use crate::picture::{FORCE_LENGTH, Shown, Solid, TORQUE_LENGTH, body_poses_at, frames};
+use crate::picture::{
+    DESIRED_FORCE_LENGTH, FORCE_LENGTH, Shown, Solid, TORQUE_LENGTH, body_poses_at, frames,
+};
 use crate::record::{Event, Sample};
 use nalgebra::{Rotation3, UnitQuaternion};
 use serde::Serialize;
@@ -20,6 +22,7 @@ pub(super) struct ReplayData {
     set_point: Solid,
     block: Option<Solid>,
     force_length: f64,
+    desired_force_length: f64,
     torque_length: f64,
     /// s
     pub(super) times: Vec<f64>,
@@ -82,6 +85,7 @@ impl ReplayData {
             ),
             block: shown.block.as_ref().map(rounded_solid),
             force_length: FORCE_LENGTH,
+            desired_force_length: DESIRED_FORCE_LENGTH,
             torque_length: TORQUE_LENGTH,
             times: Vec::new(),
             poses: Vec::new(),

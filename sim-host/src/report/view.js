@@ -32,7 +32,7 @@ class Camera {
   reset() {
     this.azimuth = -2.25;
     this.elevation = 0.2;
-    this.distance = 3.1;
+    this.distance = 3.3;
   }
 
   orbit(dx, dy) {

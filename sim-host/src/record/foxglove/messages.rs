@@ -3,7 +3,7 @@
 use super::arrows::arrow;
 use super::nanoseconds;
 use crate::chart::OKABE_ITO;
-use crate::picture::{BODY_NAMES, FORCE_LENGTH, Shown, Solid, TORQUE_LENGTH};
+use crate::picture::{BODY_NAMES, DESIRED_FORCE_LENGTH, FORCE_LENGTH, Shown, Solid, TORQUE_LENGTH};
 use crate::record::{Event, JOINTS, Sample};
 use ::foxglove::messages::log::Level;
 use ::foxglove::messages::{
@@ -127,7 +127,7 @@ pub(super) fn forces(shown: &Shown, sample: &Sample, poses: &[Pose<f64>; 13]) ->
     }
     let body = &poses[0];
     let [fx, fy, fz, tx, ty, tz] = sample.desired_wrench;
-    let force = body.rotation * Vector3::new(fx, fy, fz) * FORCE_LENGTH;
+    let force = body.rotation * Vector3::new(fx, fy, fz) * DESIRED_FORCE_LENGTH;
     let torque = body.rotation * Vector3::new(tx, ty, tz) * TORQUE_LENGTH;
     arrows.extend(arrow(body.position, force, color(0, 1.0)));
     arrows.extend(arrow(body.position, torque, color(2, 1.0)));
