@@ -107,9 +107,10 @@ impl TimeSeries<'_> {
             .axis_style(BLACK.stroke_width(points(1)))
             .draw()?;
         for mark in self.marks {
-            let line = [(mark.time_s, low), (mark.time_s, high)];
-            let style = RGBColor(120, 120, 120).stroke_width(points(1));
-            chart.draw_series(DashedLineSeries::new(line, points(3), points(3), style))?;
+            // Whole: each dash would be an element of its own, and there are thousands.
+            let line = vec![(mark.time_s, low), (mark.time_s, high)];
+            let style = RGBColor(160, 160, 160).stroke_width(points(1));
+            chart.draw_series([PathElement::new(line, style)])?;
         }
         for (i, series) in panel.series.iter().enumerate() {
             let curve = thinned(self.times, &series.values);
@@ -131,10 +132,10 @@ impl TimeSeries<'_> {
             .marks
             .iter()
             .take(LISTED_MARKS)
-            .map(|mark| format!("┊ {:.3} s {}", mark.time_s, mark.label))
+            .map(|mark| format!("| {:.3} s {}", mark.time_s, mark.label))
             .collect();
         if self.marks.len() > LISTED_MARKS {
-            lines.push(format!("┊ and {} more", self.marks.len() - LISTED_MARKS));
+            lines.push(format!("and {} more", self.marks.len() - LISTED_MARKS));
         }
         for (i, line) in lines.into_iter().enumerate() {
             area.draw(&Text::new(line, (at(4), at(top + 16 * i as i32 - 6)), grey.clone()))?;

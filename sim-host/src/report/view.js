@@ -78,11 +78,13 @@ function place(solid, pose, color) {
 
 // 1 if a may hide b and is painted later, -1 for the reverse. The plane that tells is the face, of either
 // solid, behind which the other lies least: at joints solids overlap, and no plane separates them wholly.
+// Where two tell the same, the solid nearer to the trunk decides, lest the order flicker.
 function order(a, b, eye) {
   let [best, nearer] = [-Infinity, 1];
   for (const [one, other, outside] of [[a, b, -1], [b, a, 1]]) {
     for (const { normal, level } of one.faces) {
-      const clearance = Math.min(...other.vertices.map((v) => dot(normal, v))) - level;
+      const bias = one.rank < other.rank ? 0.01 : 0;
+      const clearance = Math.min(...other.vertices.map((v) => dot(normal, v))) - level + bias;
       if (clearance <= best) continue;
       best = clearance;
       nearer = dot(normal, eye) > level ? outside : -outside;
@@ -93,6 +95,7 @@ function order(a, b, eye) {
 
 // From the back to the front: one after the other that no other must precede.
 function painted(solids, eye) {
+  solids.forEach((solid, i) => { solid.rank = i; });
   const far = (solid) => Math.hypot(...sub(solid.middle, eye));
   const waiting = [...solids].sort((a, b) => far(b) - far(a));
   const result = [];
