@@ -102,7 +102,7 @@ impl TimeSeries<'_> {
             .label_style(font(13))
             .axis_desc_style(font(14))
             .set_all_tick_mark_size(at(5))
-            .light_line_style(WHITE)
+            .max_light_lines(0)
             .bold_line_style(RGBColor(220, 220, 220).stroke_width(points(1)))
             .axis_style(BLACK.stroke_width(points(1)))
             .draw()?;

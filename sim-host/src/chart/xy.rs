@@ -149,7 +149,7 @@ impl XyChart {
             .set_all_tick_mark_size(at(5))
             .bold_line_style(RGBColor(220, 220, 220).stroke_width(points(1)))
             .axis_style(BLACK.stroke_width(points(1)))
-            .light_line_style(WHITE)
+            .max_light_lines(0)
             .draw()?;
         for (i, series) in self.series.iter().enumerate() {
             let color = COLORS[i % COLORS.len()];
