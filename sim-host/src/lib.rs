@@ -1,7 +1,7 @@
 //! The host simulator of `surefoot`: plants, contact, scenes, closed loops, records and charts.
 //!
 //! ```text
-//! scene file ─► Scene ─► Plant ─► step ─► Record ─► summary, CSV, charts
+//! scene file ─► Scene ─► Plant ─► step ─► Record ─► summary, CSV, MCAP, charts, report
 //!                 │        ▲ torques, held between ticks
 //!                 └──► Controller (host f32 or f64)
 //! ```
@@ -22,7 +22,9 @@ pub mod mechanics;
 pub mod mechanism;
 pub mod multibody;
 pub mod newton;
+pub mod picture;
 pub mod plant;
 pub mod record;
+pub mod report;
 pub mod scene;
 pub mod stability;

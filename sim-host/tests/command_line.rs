@@ -274,6 +274,41 @@ fn tables_are_reproduced_as_json() {
     assert!(stderr.contains("table-2.1"), "{stderr}");
 }
 
+/// Figures of §4.3 are drawn under their numbers, with what the text prints in them.
+#[test]
+fn figures_of_experiment_1_are_reproduced() {
+    let folder = folder("reproduce-figures");
+    let (status, stdout, stderr) = said(&surefoot(&folder, &["reproduce", "figure-4.9", "--json"]));
+    assert_eq!(status, Some(0), "{stderr}");
+    let document: Value = serde_json::from_str(&stdout).expect("one document");
+    assert_eq!(document["figure"], "figure-4.9");
+    assert!(document["reading"].as_str().is_some_and(|reading| reading.contains("touch-down")));
+    assert_eq!(document["rows"][0]["printed"], 1687.0);
+    let ours = document["rows"][0]["ours"].as_f64().expect("a number");
+    assert!((ours / 1687.0 - 1.0).abs() < 0.01, "{ours} N");
+    let file = document["file"].as_str().expect("a path");
+    let svg = std::fs::read_to_string(folder.join(file)).expect("written");
+    assert!(svg.contains("Figure 4.9, Experiment 1: desired body force"));
+}
+
+/// A run leaves a page, the record twice, and its figures.
+#[test]
+fn a_run_leaves_its_report_and_record() {
+    let folder = folder("report");
+    let (status, _, stderr) = said(&surefoot(&folder, &["run", "--duration", "0.1"]));
+    assert_eq!(status, Some(0), "{stderr}");
+    let out = folder.join("out/experiment-1");
+    let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
+    assert!(page.starts_with("<!DOCTYPE html>") && page.trim_end().ends_with("</html>"));
+    // Both readings of the first instant.
+    assert!(page.contains("torques from t = 0") && page.contains("torques from touch-down"));
+    let mcap = std::fs::read(out.join("record.mcap")).expect("a record");
+    assert!(mcap.starts_with(b"\x89MCAP0\r\n") && mcap.ends_with(b"\x89MCAP0\r\n"));
+    for name in ["record.csv", "joint-angles.svg", "tracking-errors.svg", "ground-forces.svg"] {
+        assert!(out.join(name).is_file(), "{name}");
+    }
+}
+
 /// Mechanisms run under any method that is made for them, and say what they keep.
 #[test]
 fn mechanisms_run_and_say_what_they_keep() {

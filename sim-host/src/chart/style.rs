@@ -6,35 +6,84 @@ use std::path::Path;
 
 /// A chart could not be drawn or written.
 #[derive(Debug, thiserror::Error)]
-#[error("chart {path}: {reason}")]
+#[error("chart {chart}: {reason}")]
 pub struct ChartError {
-    path: String,
+    chart: String,
     reason: String,
 }
 
 impl ChartError {
-    pub(super) fn new(path: &Path, error: &dyn std::error::Error) -> Self {
-        Self { path: path.display().to_string(), reason: error.to_string() }
+    pub(super) fn new(chart: impl std::fmt::Display, error: &dyn std::error::Error) -> Self {
+        Self { chart: chart.to_string(), reason: error.to_string() }
     }
+}
+
+/// Writes a drawing to a file.
+pub(super) fn write(path: &Path, svg: &str) -> Result<(), ChartError> {
+    std::fs::write(path, svg).map_err(|error| ChartError::new(path.display(), &error))
 }
 
 pub(super) type Painted = Result<(), Box<dyn std::error::Error>>;
 
 /// Okabe and Ito's colours, which people with any common colour vision can tell apart, darkest
 /// first; curves beyond six repeat them dashed.
-pub(super) const COLORS: [RGBColor; 6] = [
-    RGBColor(0, 0, 0),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 114, 178),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-];
+pub const OKABE_ITO: [(u8, u8, u8); 6] =
+    [(0, 0, 0), (213, 94, 0), (0, 114, 178), (0, 158, 115), (204, 121, 167), (230, 159, 0)];
+
+/// The same for the backend.
+pub(super) const COLORS: [RGBColor; 6] = {
+    let mut colors = [RGBColor(0, 0, 0); 6];
+    let mut i = 0;
+    while i < colors.len() {
+        let (red, green, blue) = OKABE_ITO[i];
+        colors[i] = RGBColor(red, green, blue);
+        i += 1;
+    }
+    colors
+};
 
 pub(super) const WIDTH: u32 = 900;
 pub(super) const PANEL_HEIGHT: u32 = 300;
 pub(super) const LEGEND_WIDTH: u32 = 170;
 pub(super) const TITLE_HEIGHT: u32 = 40;
+
+/// Points of a drawing to a pixel. The backend rounds to whole points, and curves in whole pixels have
+/// steps.
+const FINENESS: u32 = 4;
+
+/// Pixels as points of the drawing.
+pub(super) const fn points(pixels: u32) -> u32 {
+    FINENESS * pixels
+}
+
+/// The same, signed: for coordinates.
+pub(super) const fn at(pixels: i32) -> i32 {
+    FINENESS as i32 * pixels
+}
+
+/// A font whose size is given in pixels.
+pub(super) fn font(pixels: u32) -> (&'static str, i32) {
+    ("sans-serif", points(pixels) as i32)
+}
+
+/// A drawing of so many pixels, as SVG text.
+pub(super) fn drawn(
+    title: &str,
+    (width, height): (u32, u32),
+    paint: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Painted,
+) -> Result<String, ChartError> {
+    let mut svg = String::new();
+    let size = (points(width), points(height));
+    {
+        let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+        let painted = root.fill(&WHITE).map_err(Into::into).and_then(|()| paint(&root));
+        painted
+            .and_then(|()| root.present().map_err(Into::into))
+            .map_err(|error| ChartError::new(title, error.as_ref()))?;
+    }
+    let fine = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
+    Ok(svg.replacen(&fine, &format!("width=\"{width}\" height=\"{height}\""), 1))
+}
 
 /// Legend beside the axes, where it hides nothing: names, and whether each is a ring.
 pub(super) fn names<'a>(
@@ -42,18 +91,21 @@ pub(super) fn names<'a>(
     names: impl Iterator<Item = (&'a str, bool)>,
 ) -> Painted {
     for (i, (name, ring)) in names.enumerate() {
-        let y = 40 + 19 * i as i32;
-        let style = COLORS[i % COLORS.len()].stroke_width(3);
+        let y = at(40 + 19 * i as i32);
+        let color = COLORS[i % COLORS.len()];
+        let line = |from: i32, to: i32| {
+            let ends = vec![(at(from), y), (at(to), y)];
+            PathElement::new(ends, color.stroke_width(points(3)))
+        };
         if ring {
-            let style = COLORS[i % COLORS.len()].stroke_width(2);
-            area.draw(&Circle::new((17, y), 7, style))?;
+            area.draw(&Circle::new((at(17), y), points(7), color.stroke_width(points(2))))?;
         } else if i < COLORS.len() {
-            area.draw(&PathElement::new(vec![(4, y), (30, y)], style))?;
+            area.draw(&line(4, 30))?;
         } else {
-            area.draw(&PathElement::new(vec![(4, y), (13, y)], style))?;
-            area.draw(&PathElement::new(vec![(20, y), (29, y)], style))?;
+            area.draw(&line(4, 13))?;
+            area.draw(&line(20, 29))?;
         }
-        area.draw(&Text::new(name, (38, y - 7), ("sans-serif", 14)))?;
+        area.draw(&Text::new(name, (at(38), y - at(7)), font(14)))?;
     }
     Ok(())
 }

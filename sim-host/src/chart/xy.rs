@@ -1,8 +1,8 @@
 //! One quantity against another, on plain or logarithmic axes.
 
 use super::style::{
-    COLORS, ChartError, LEGEND_WIDTH, PANEL_HEIGHT, Painted, TITLE_HEIGHT, WIDTH, label, names,
-    range,
+    COLORS, ChartError, LEGEND_WIDTH, PANEL_HEIGHT, Painted, TITLE_HEIGHT, WIDTH, at, drawn, font,
+    label, names, points, range, write,
 };
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
@@ -78,23 +78,29 @@ impl XyChart {
         self
     }
 
+    /// Draws it as SVG.
+    ///
+    /// # Errors
+    /// [`ChartError`] if it cannot be drawn.
+    pub fn svg(&self) -> Result<String, ChartError> {
+        let panels = 1 + self.below.len() as u32;
+        let height = TITLE_HEIGHT + (PANEL_HEIGHT + 80) * panels;
+        drawn(&self.title, (WIDTH, height), |root| self.paint(root))
+    }
+
     /// Draws it to an SVG file.
     ///
     /// # Errors
     /// [`ChartError`] if the file cannot be written.
     pub fn draw(&self, path: &Path) -> Result<(), ChartError> {
-        let panels = 1 + self.below.len() as u32;
-        let height = TITLE_HEIGHT + (PANEL_HEIGHT + 80) * panels;
-        let root = SVGBackend::new(path, (WIDTH, height)).into_drawing_area();
-        self.paint(&root).map_err(|error| ChartError::new(path, error.as_ref()))
+        write(path, &self.svg()?)
     }
 
     fn paint(&self, root: &DrawingArea<SVGBackend<'_>, Shift>) -> Painted {
-        root.fill(&WHITE)?;
         let areas = root.split_evenly((1 + self.below.len(), 1));
         for (chart, area) in std::iter::once(self).chain(&self.below).zip(areas) {
-            let area = area.titled(&chart.title, ("sans-serif", 20))?;
-            let (plot, legend) = area.split_horizontally(WIDTH - LEGEND_WIDTH);
+            let area = area.titled(&chart.title, font(20))?;
+            let (plot, legend) = area.split_horizontally(points(WIDTH - LEGEND_WIDTH));
             let (x, y) = (chart.range(|(x, _)| x), chart.range(|(_, y)| y));
             if chart.logarithmic {
                 let axes = ((x.0..x.1).log_scale(), (y.0..y.1).log_scale());
@@ -106,7 +112,6 @@ impl XyChart {
             }
             names(&legend, chart.series.iter().map(|series| (series.name.as_str(), series.rings)))?;
         }
-        root.present()?;
         Ok(())
     }
 
@@ -124,12 +129,12 @@ impl XyChart {
         Y::CoordDescType: ValueFormatter<f64>,
     {
         let mut chart = ChartBuilder::on(area)
-            .margin_left(10)
-            .margin_right(12)
-            .margin_bottom(6)
-            .margin_top(12)
-            .x_label_area_size(42)
-            .y_label_area_size(78)
+            .margin_left(at(10))
+            .margin_right(at(12))
+            .margin_bottom(at(6))
+            .margin_top(at(12))
+            .x_label_area_size(at(42))
+            .y_label_area_size(at(78))
             .build_cartesian_2d(x, y)?;
         chart
             .configure_mesh()
@@ -139,27 +144,31 @@ impl XyChart {
             .y_labels(8)
             .x_label_formatter(x_label)
             .y_label_formatter(y_label)
-            .label_style(("sans-serif", 13))
-            .axis_desc_style(("sans-serif", 14))
-            .light_line_style(WHITE)
-            .bold_line_style(RGBColor(220, 220, 220))
+            .label_style(font(13))
+            .axis_desc_style(font(14))
+            .set_all_tick_mark_size(at(5))
+            .bold_line_style(RGBColor(220, 220, 220).stroke_width(points(1)))
+            .axis_style(BLACK.stroke_width(points(1)))
+            .max_light_lines(0)
             .draw()?;
         for (i, series) in self.series.iter().enumerate() {
             let color = COLORS[i % COLORS.len()];
-            let points = self.shown(series);
+            let shown = self.shown(series);
             if series.rings {
-                let style = color.stroke_width(2);
-                chart.draw_series(points.map(|point| Circle::new(point, 7, style)))?;
+                let style = color.stroke_width(points(2));
+                chart.draw_series(shown.map(|point| Circle::new(point, points(7), style)))?;
                 continue;
             }
             if i < COLORS.len() {
-                chart.draw_series(LineSeries::new(points.clone(), color.stroke_width(2)))?;
+                chart.draw_series(LineSeries::new(shown.clone(), color.stroke_width(points(2))))?;
             } else {
-                let style = color.stroke_width(2);
-                chart.draw_series(DashedLineSeries::new(points.clone(), 7, 4, style))?;
+                let style = color.stroke_width(points(2));
+                chart.draw_series(DashedLineSeries::new(shown.clone(), 7, 4, style))?;
             }
             if self.logarithmic {
-                chart.draw_series(points.map(|point| Circle::new(point, 3, color.filled())))?;
+                chart.draw_series(
+                    shown.map(|point| Circle::new(point, points(3), color.filled())),
+                )?;
             }
         }
         Ok(())

@@ -2,7 +2,7 @@
 
 use super::controller::Place;
 use crate::closed_loop::{Costs, CutTorques, Outcome, Peaks, Run, Scalar};
-use crate::experiments::printed_figures;
+use crate::experiments::{printed_figures, reading};
 use crate::record::Sample;
 use crate::scene::{Scene, TorquesFrom};
 use serde_json::{Value, json};
@@ -23,10 +23,15 @@ pub struct Report<'a> {
     pub other: Option<&'a (TorquesFrom, Run)>,
 }
 
-fn reading(from: TorquesFrom) -> &'static str {
-    match from {
-        TorquesFrom::Start => "torques from t = 0",
-        TorquesFrom::TouchDown => "torques from touch-down",
+impl<'a> Report<'a> {
+    /// The same for the page.
+    pub fn page(&self) -> crate::report::Report<'a> {
+        let controller = match (self.controller, self.scalar) {
+            (Place::Host, Scalar::F32) => "f32, on the host",
+            (Place::Host, Scalar::F64) => "f64, on the host",
+            (Place::Firmware, _) => "f32, on the target",
+        };
+        crate::report::Report { scene: self.scene, controller, run: self.run, other: self.other }
     }
 }
 
@@ -141,7 +146,7 @@ fn tables(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
                 out,
                 "  {:<34}{:>12}{:>12}{:>9}",
                 row.figure,
-                format!("{:.1} {}", row.ours, row.unit),
+                row.ours_text(),
                 format!("{} {}", row.printed, row.unit),
                 percent(row.relative_difference),
             )?;

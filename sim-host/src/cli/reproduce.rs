@@ -2,6 +2,9 @@
 
 use super::report::percent;
 use super::{RUN_FAILED, bad_input, say};
+use crate::experiments::robot_figures::{
+    EXPERIMENT_1, EXPERIMENT_2, READING, RobotFigure, experiment_1_figures, experiment_2_figures,
+};
 use crate::experiments::{Comparison, Figure, box_drop, double_pendulum, free_body};
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
@@ -41,7 +44,8 @@ const BOX_DROP: [&str; 4] = ["figure-5.3", "figure-5.4", "figure-5.5", "figure-5
 
 /// Everything that can be asked for.
 fn names() -> PossibleValuesParser {
-    let all = FREE_BODY.into_iter().chain(DOUBLE_PENDULUM).chain(BOX_DROP);
+    let all = FREE_BODY.into_iter().chain(DOUBLE_PENDULUM).chain(EXPERIMENT_1);
+    let all = all.chain(EXPERIMENT_2).chain(BOX_DROP);
     PossibleValuesParser::new(all.chain(["all"]))
 }
 
@@ -52,6 +56,8 @@ pub fn reproduce(options: &Options) -> ExitCode {
     let made = [
         (&FREE_BODY[..], free_body_items as fn() -> Made),
         (&DOUBLE_PENDULUM[..], double_pendulum_items),
+        (&EXPERIMENT_1[..], || robot_items(experiment_1_figures()?)),
+        (&EXPERIMENT_2[..], || robot_items(experiment_2_figures()?)),
         (&BOX_DROP[..], box_drop_items),
     ];
     for (names, make) in made {
@@ -104,26 +110,30 @@ struct Item {
     name: &'static str,
     reading: &'static str,
     rows: Vec<Comparison>,
-    figure: Option<Figure>,
+    /// The drawing; a table has none.
+    svg: Option<String>,
 }
 
 impl Item {
     fn table(name: &'static str, reading: &'static str, rows: Vec<Comparison>) -> Self {
-        Self { name, reading, rows, figure: None }
+        Self { name, reading, rows, svg: None }
     }
 
-    fn figure(figure: Figure) -> Self {
-        let Figure { name, reading, ref rows, .. } = figure;
-        Self { name, reading, rows: rows.clone(), figure: Some(figure) }
+    fn figures(figures: Vec<Figure>) -> Made {
+        let item = |figure: Figure| {
+            let Figure { name, reading, chart, rows } = figure;
+            Ok(Self { name, reading, rows, svg: Some(chart.svg()?) })
+        };
+        figures.into_iter().map(item).collect()
     }
 
-    /// Draws a figure; a table has no drawing.
+    /// Writes a figure's drawing.
     fn draw(&self, folder: &Path) -> Result<Option<PathBuf>, String> {
-        let Some(figure) = &self.figure else { return Ok(None) };
+        let Some(svg) = &self.svg else { return Ok(None) };
         let path = folder.join(format!("{}.svg", self.name));
         std::fs::create_dir_all(folder)
-            .map_err(|error| format!("{}: {error}", folder.display()))?;
-        figure.chart.draw(&path).map_err(|error| error.to_string())?;
+            .and_then(|()| std::fs::write(&path, svg))
+            .map_err(|error| format!("{}: {error}", path.display()))?;
         Ok(Some(path))
     }
 
@@ -137,9 +147,9 @@ impl Item {
         for row in &self.rows {
             let _ = writeln!(
                 out,
-                "  {:<40}{:>12.3e}{:>12.3e}{:>9}{}",
+                "  {:<40}{:>12}{:>12.3e}{:>9}{}",
                 row.figure,
-                row.ours,
+                row.ours.map_or_else(|| "none".to_owned(), |ours| format!("{ours:.3e}")),
                 row.printed,
                 percent(row.relative_difference),
                 if row.met == Some(false) { "  MISSED" } else { "" },
@@ -158,17 +168,23 @@ type Made = Result<Vec<Item>, Box<dyn std::error::Error>>;
 fn free_body_items() -> Made {
     let runs = free_body::Runs::new()?;
     let mut items = vec![Item::table("table-2.1", free_body::READING, runs.table_2_1())];
-    items.extend(runs.figures().into_iter().map(Item::figure));
+    items.extend(Item::figures(runs.figures())?);
     Ok(items)
 }
 
 fn box_drop_items() -> Made {
-    Ok(box_drop::Run::new()?.figures().into_iter().map(Item::figure).collect())
+    Item::figures(box_drop::Run::new()?.figures())
 }
 
 fn double_pendulum_items() -> Made {
     let runs = double_pendulum::Runs::new()?;
     let mut items = vec![Item::table("table-2.2", double_pendulum::READING, runs.table_2_2())];
-    items.extend(runs.figures().into_iter().map(Item::figure));
+    items.extend(Item::figures(runs.figures())?);
     Ok(items)
+}
+
+fn robot_items(figures: Vec<RobotFigure>) -> Made {
+    let item =
+        |RobotFigure { name, svg, rows }| Item { name, reading: READING, rows, svg: Some(svg) };
+    Ok(figures.into_iter().map(item).collect())
 }

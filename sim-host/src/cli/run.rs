@@ -4,10 +4,12 @@ use super::controller::ControllerOptions;
 use super::report::{self, Report};
 use super::run_mechanism::run_mechanism;
 use super::{RUN_FAILED, bad_input, say};
-use crate::chart::write_charts;
+use crate::chart::RUN_FIGURES;
 use crate::closed_loop::{self, Run};
 use crate::integrators::Method;
-use crate::record::{SavedRun, write_csv};
+use crate::picture::Shown;
+use crate::record::{SavedRun, write_csv, write_mcap};
+use crate::report::page;
 use crate::scene::{AnyScene, Feet, Scene, TorquesFrom, open};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -107,16 +109,16 @@ pub fn run(options: &Options) -> ExitCode {
     if let Err(message) = options.write_saved(run.saved.as_ref()) {
         return bad_input(&message, options.json);
     }
-    let files = match write_files(&options.folder(&scene.name), &scene, &run) {
-        Ok(files) => files,
-        Err(message) => return bad_input(&message, options.json),
-    };
     let report = Report {
         scene: &scene,
         scalar: options.controller.scalar(),
         controller: options.controller.place,
         run: &run,
         other: other.as_ref(),
+    };
+    let files = match write_files(&options.folder(&scene.name), &report) {
+        Ok(files) => files,
+        Err(message) => return bad_input(&message, options.json),
     };
     if options.json {
         say(&format!("{:#}\n", report::json(&report, &files)));
@@ -197,13 +199,29 @@ pub(super) fn created(folder: &Path) -> Result<(PathBuf, std::fs::File), String>
     Ok((record, file))
 }
 
-fn write_files(folder: &Path, scene: &Scene, run: &Run) -> Result<Vec<PathBuf>, String> {
+/// The report, the record in both forms, and the figures.
+fn write_files(folder: &Path, report: &Report<'_>) -> Result<Vec<PathBuf>, String> {
+    let Report { scene, run, .. } = report;
     let (record, file) = created(folder)?;
     write_csv(&run.samples, std::io::BufWriter::new(file))
         .map_err(|error| format!("{}: {error}", record.display()))?;
-    let mut files = vec![record];
-    files.extend(
-        write_charts(folder, &scene.name, &run.samples).map_err(|error| error.to_string())?,
-    );
+    let mcap = folder.join("record.mcap");
+    let in_mcap = |error: &dyn std::fmt::Display| format!("{}: {error}", mcap.display());
+    let file = std::fs::File::create(&mcap).map_err(|error| in_mcap(&error))?;
+    let to = std::io::BufWriter::new(file);
+    write_mcap(&Shown::of(scene), &run.samples, &run.events, to)
+        .map_err(|error| in_mcap(&error))?;
+    let html = page(&report.page()).map_err(|error| error.to_string())?;
+    let mut files = vec![written(folder.join("report.html"), &html)?, record, mcap];
+    for figure in RUN_FIGURES {
+        let svg = figure.svg(&scene.name, &run.samples, &run.events);
+        let svg = svg.map_err(|error| error.to_string())?;
+        files.push(written(folder.join(format!("{}.svg", figure.name)), &svg)?);
+    }
     Ok(files)
+}
+
+fn written(path: PathBuf, text: &str) -> Result<PathBuf, String> {
+    std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+    Ok(path)
 }

@@ -9,11 +9,11 @@ pub struct Comparison {
     pub figure: String,
     /// Unit.
     pub unit: &'static str,
-    /// What the run gives.
-    pub ours: f64,
+    /// What the run gives; `None` where what is compared did not happen in it.
+    pub ours: Option<f64>,
     /// What the text prints.
     pub printed: f64,
-    /// `ours/printed − 1`; of no meaning where zero is printed.
+    /// `ours/printed − 1`; of no meaning where zero is printed, or where there is none of ours.
     pub relative_difference: Option<f64>,
     /// How close ours should be, if something is asked for.
     pub asked: Option<Asked>,
@@ -37,10 +37,11 @@ impl Comparison {
     pub(super) fn new(
         figure: impl Into<String>,
         unit: &'static str,
-        ours: f64,
+        ours: impl Into<Option<f64>>,
         printed: f64,
     ) -> Self {
-        let relative_difference = (printed != 0.0).then(|| ours / printed - 1.0);
+        let ours = ours.into();
+        let relative_difference = ours.filter(|_| printed != 0.0).map(|ours| ours / printed - 1.0);
         Self {
             figure: figure.into(),
             unit,
@@ -52,14 +53,26 @@ impl Comparison {
         }
     }
 
+    /// Ours for people, or that it did not happen: times to milliseconds, all else to a decimal.
+    pub fn ours_text(&self) -> String {
+        match self.ours {
+            None => "none".to_owned(),
+            Some(time) if self.unit == "s" => format!("{time:.3} s"),
+            Some(value) => format!("{value:.1} {}", self.unit),
+        }
+    }
+
     pub(super) fn asked(self, asked: Asked) -> Self {
         let met = match asked {
             Asked::PrintedDigits(digits) => {
                 let places = digits.saturating_sub(1);
-                format!("{:.places$e}", self.ours) == format!("{:.places$e}", self.printed)
+                let rounded = |x: f64| format!("{x:.places$e}");
+                self.ours.map(rounded) == Some(rounded(self.printed))
             }
             Asked::Relative(limit) => self.relative_difference.is_some_and(|d| d.abs() <= limit),
-            Asked::Absolute(limit) => (self.ours - self.printed).abs() <= limit,
+            Asked::Absolute(limit) => {
+                self.ours.is_some_and(|ours| (ours - self.printed).abs() <= limit)
+            }
         };
         Self { asked: Some(asked), met: Some(met), ..self }
     }

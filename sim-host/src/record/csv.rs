@@ -7,7 +7,21 @@ const LEGS: [&str; 2] = ["left", "right"];
 const LEG_JOINTS: [&str; 6] = ["hip_x", "hip_y", "hip_z", "knee", "ankle_x", "ankle_y"];
 const CORNERS: [&str; 4] = ["heel_minus_y", "heel_plus_y", "toe_minus_y", "toe_plus_y"];
 
-/// Writes all samples. Numbers are printed with as many digits as give back the same f64.
+const AXES: [&str; 3] = ["x", "y", "z"];
+const BLOCK: [&str; 10] = [
+    "block_x_m",
+    "block_y_m",
+    "block_z_m",
+    "block_q_s",
+    "block_q_x",
+    "block_q_y",
+    "block_q_z",
+    "block_f_x_n",
+    "block_f_y_n",
+    "block_f_z_n",
+];
+
+/// Writes all samples. Columns of what a run has not, such as a block, are empty. Numbers are printed with as many digits as give back the same f64.
 ///
 /// # Errors
 /// Those of the writer.
@@ -44,6 +58,12 @@ fn header() -> Vec<String> {
         LEGS.iter()
             .flat_map(|leg| CORNERS.iter().map(move |corner| format!("{leg}_{corner}_state"))),
     );
+    for leg in LEGS {
+        for corner in CORNERS {
+            names.extend(AXES.iter().map(|axis| format!("{leg}_{corner}_f_{axis}_n")));
+        }
+    }
+    names.extend(BLOCK.iter().map(|name| (*name).to_owned()));
     names
 }
 
@@ -64,6 +84,17 @@ fn row(sample: &Sample) -> Vec<String> {
         }
         None => fields.extend(std::iter::repeat_n(String::new(), 8)),
     }
+    let forces = sample.corner_forces.iter().flatten().flatten().flatten();
+    fields.extend(forces.map(f64::to_string));
+    if sample.corner_forces.is_none() {
+        fields.extend(std::iter::repeat_n(String::new(), 24));
+    }
+    match &sample.block {
+        Some(block) => {
+            fields.extend(block.pose.iter().chain(&block.force).map(f64::to_string));
+        }
+        None => fields.extend(std::iter::repeat_n(String::new(), BLOCK.len())),
+    }
     fields
 }
 
@@ -71,6 +102,7 @@ fn row(sample: &Sample) -> Vec<String> {
 mod tests {
     use super::*;
     use crate::contact::ContactState;
+    use crate::record::BlockSample;
 
     #[test]
     fn rows_have_the_headers_columns_and_give_back_the_numbers() {
@@ -85,8 +117,8 @@ mod tests {
             foot_forces: [7.0; 2],
             contacts: Some([[ContactState::Sticking; 4]; 2]),
             energy: [8.0; 2],
-            corner_forces: None,
-            block: None,
+            corner_forces: Some([[[9.0, 10.0, 11.0]; 4]; 2]),
+            block: Some(BlockSample { pose: [12.0; 7], force: [13.0; 3] }),
         };
         let mut bytes = Vec::new();
         write_csv(&[sample], &mut bytes).expect("a vector takes all");
@@ -99,7 +131,12 @@ mod tests {
         assert_eq!(lines[1][column("right_knee_nm")], "3");
         assert_eq!(lines[1][column("e_q_s")], "6");
         assert_eq!(lines[1][column("right_toe_plus_y_state")], "4");
+        assert_eq!(lines[1][column("right_toe_plus_y_f_z_n")], "11");
+        assert_eq!(lines[1][column("block_q_z")], "12");
+        assert_eq!(lines[1][column("block_f_x_n")], "13");
         sample.contacts = None;
+        sample.corner_forces = None;
+        sample.block = None;
         assert_eq!(row(&sample).len(), header().len());
     }
 }

@@ -9,7 +9,7 @@ pub struct Event {
     pub time_s: f64,
     /// What.
     pub kind: EventKind,
-    /// Where: "left foot" or "right foot"; or "point 3", counted from 1.
+    /// Where: "left foot", "right foot" or "central body"; or "point 3", counted from 1.
     #[serde(rename = "where")]
     pub place: String,
 }
@@ -26,17 +26,17 @@ pub enum EventKind {
     SlipStart,
     /// No corner of the foot slides any more.
     SlipEnd,
-    /// A heel leaves the floor while its toe stays.
+    /// The heel's last corner leaves the floor while the toe is down.
     HeelOff,
-    /// A heel comes back to the floor.
+    /// The heel's first corner touches the floor again while the toe is down.
     HeelDown,
-    /// A toe leaves the floor while its heel stays.
+    /// The toe's last corner leaves the floor while the heel is down.
     ToeOff,
-    /// A toe comes back to the floor.
+    /// The toe's first corner touches the floor again while the heel is down.
     ToeDown,
-    /// A thrown block strikes the central body.
+    /// A thrown block strikes the body.
     Strike,
-    /// It leaves it.
+    /// It parts from the body.
     StrikeEnd,
 }
 
@@ -48,11 +48,11 @@ impl std::fmt::Display for EventKind {
             Self::SlipStart => "starts to slip",
             Self::SlipEnd => "stops slipping",
             Self::HeelOff => "raises its heel",
-            Self::HeelDown => "puts its heel down",
+            Self::HeelDown => "sets down its heel",
             Self::ToeOff => "raises its toe",
-            Self::ToeDown => "puts its toe down",
-            Self::Strike => "is struck",
-            Self::StrikeEnd => "is left by the block",
+            Self::ToeDown => "sets down its toe",
+            Self::Strike => "is struck by the block",
+            Self::StrikeEnd => "is rid of the block",
         })
     }
 }

@@ -2,13 +2,17 @@
 
 mod csv;
 mod event;
+mod foxglove;
 mod mechanism_csv;
 mod saved;
+mod settling;
 
 pub use self::csv::write_csv;
 pub use event::{Event, EventKind};
+pub use foxglove::{RecordFailure, write_mcap};
 pub use mechanism_csv::write_mechanism_csv;
 pub use saved::{HardwareMemory, SavedRun};
+pub use settling::Settling;
 
 use crate::contact::ContactState;
 use crate::plant::{NQ, NV};

@@ -1,5 +1,6 @@
 //! `cargo xtask test`: every test of the workspace, stage after stage.
 
+mod browser;
 mod budget;
 mod doc_tests;
 mod firmware;
@@ -31,6 +32,8 @@ enum Stage {
     Tests,
     /// The examples in the documentation, on the host.
     DocTests,
+    /// The report's page and its replay, in a browser.
+    Browser,
     /// Core compiles for the target.
     Target,
     /// No panicking path in the tick, nor in the rest of core, on the target.
@@ -43,7 +46,7 @@ enum Stage {
 
 impl Options {
     fn wants(&self, stage: Stage) -> bool {
-        let needs_target = !matches!(stage, Stage::Tests | Stage::DocTests);
+        let needs_target = !matches!(stage, Stage::Tests | Stage::DocTests | Stage::Browser);
         (self.only.is_empty() || self.only.contains(&stage)) && !(needs_target && self.skip_target)
     }
 }
@@ -56,6 +59,9 @@ pub fn run(options: &Options) -> Result<()> {
     }
     if options.wants(Stage::DocTests) {
         record.stage("doc-tests", doc_tests::run);
+    }
+    if options.wants(Stage::Browser) {
+        record.stage("browser", browser::run);
     }
     let on_target = [Stage::Target, Stage::PanicFree, Stage::Firmware, Stage::Budget];
     if on_target.into_iter().any(|stage| options.wants(stage)) {

@@ -1,0 +1,70 @@
+//! Which events charts mark.
+
+use super::Mark;
+use crate::record::{Event, EventKind};
+
+/// Marks that stay legible in one chart.
+const MOST_MARKS: usize = 16;
+
+/// Events of one kind at both feet this close together (s) are one mark.
+const TOGETHER_S: f64 = 2e-3;
+
+/// The events that a chart marks: those of contact, not those of slipping, which come and go too fast.
+pub fn marks(events: &[Event]) -> Vec<Mark> {
+    let mut marks: Vec<(Mark, EventKind)> = Vec::new();
+    for event in events {
+        let Some(word) = word(event.kind) else { continue };
+        let same = |(mark, kind): &&mut (Mark, EventKind)| {
+            *kind == event.kind && (mark.time_s - event.time_s).abs() <= TOGETHER_S
+        };
+        if let Some((mark, _)) = marks.iter_mut().rev().find(same) {
+            mark.label = format!("both {word}");
+            continue;
+        }
+        let place = match event.place.as_str() {
+            "left foot" => "left ",
+            "right foot" => "right ",
+            _ => "",
+        };
+        let mark = Mark { time_s: event.time_s, label: format!("{place}{word}") };
+        marks.push((mark, event.kind));
+    }
+    marks.truncate(MOST_MARKS);
+    marks.into_iter().map(|(mark, _)| mark).collect()
+}
+
+/// An event in as few letters as the legend of a chart has room for.
+fn word(kind: EventKind) -> Option<&'static str> {
+    match kind {
+        EventKind::TouchDown => Some("down"),
+        EventKind::LiftOff => Some("off"),
+        EventKind::HeelOff => Some("heel off"),
+        EventKind::HeelDown => Some("heel down"),
+        EventKind::ToeOff => Some("toe off"),
+        EventKind::ToeDown => Some("toe down"),
+        EventKind::Strike => Some("block strikes"),
+        EventKind::StrikeEnd => Some("block leaves"),
+        EventKind::SlipStart | EventKind::SlipEnd => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_feet_at_once_are_one_mark_and_slips_none() {
+        let event =
+            |time_s: f64, kind, place: &str| Event { time_s, kind, place: place.to_owned() };
+        let events = [
+            event(0.004, EventKind::TouchDown, "left foot"),
+            event(0.004, EventKind::TouchDown, "right foot"),
+            event(0.018, EventKind::SlipEnd, "left foot"),
+            event(0.08, EventKind::Strike, "central body"),
+            event(0.36, EventKind::HeelDown, "right foot"),
+            event(0.38, EventKind::HeelDown, "left foot"),
+        ];
+        let labels: Vec<String> = marks(&events).into_iter().map(|mark| mark.label).collect();
+        assert_eq!(labels, ["both down", "block strikes", "right heel down", "left heel down"]);
+    }
+}

@@ -1,0 +1,206 @@
+//! The figures of a robot's run: those of §4.3, and what they leave out.
+
+use super::marks::marks;
+use super::{ChartError, Panel, Series, TimeSeries};
+use crate::record::{Event, JOINTS, Sample};
+
+/// A figure that can be drawn of any run.
+#[derive(Clone, Copy, Debug)]
+pub struct RunFigure {
+    /// Name of its file, without the ending.
+    pub name: &'static str,
+    /// What it shows.
+    pub title: &'static str,
+    panels: fn(&[Sample]) -> Vec<Panel>,
+}
+
+/// All figures of a run. The first eight are those of each experiment of §4.3, in the text's order.
+pub const RUN_FIGURES: [RunFigure; 10] = [
+    RunFigure { name: "joint-angles", title: "joint angles", panels: joint_angles },
+    RunFigure { name: "joint-torques", title: "joint torques", panels: joint_torques },
+    RunFigure { name: "body-position", title: "body position", panels: body_position },
+    RunFigure { name: "body-orientation", title: "body orientation", panels: body_orientation },
+    RunFigure { name: "position-error", title: "body position error", panels: position_error },
+    RunFigure {
+        name: "orientation-error",
+        title: "body orientation error",
+        panels: orientation_error,
+    },
+    RunFigure { name: "desired-force", title: "desired body force", panels: desired_force },
+    RunFigure { name: "desired-torque", title: "desired body torque", panels: desired_torque },
+    RunFigure { name: "tracking-errors", title: "tracking errors", panels: tracking_errors },
+    RunFigure { name: "ground-forces", title: "forces of the ground", panels: ground_forces },
+];
+
+impl RunFigure {
+    /// Draws it as SVG; `of` names the run.
+    ///
+    /// # Errors
+    /// [`ChartError`] if it cannot be drawn.
+    pub fn svg(
+        &self,
+        of: &str,
+        samples: &[Sample],
+        events: &[Event],
+    ) -> Result<String, ChartError> {
+        let times: Vec<f64> = samples.iter().map(|sample| sample.time_s).collect();
+        TimeSeries {
+            title: format!("{of}: {}", self.title),
+            times: &times,
+            panels: (self.panels)(samples),
+            marks: &marks(events),
+        }
+        .svg()
+    }
+}
+
+fn series(samples: &[Sample], name: impl Into<String>, value: impl Fn(&Sample) -> f64) -> Series {
+    Series { name: name.into(), values: samples.iter().map(value).collect() }
+}
+
+fn panel(title: &str, axis: &str, series: Vec<Series>) -> Panel {
+    Panel { title: title.to_owned(), axis: axis.to_owned(), series }
+}
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Components `first` to `last` of a vector along the axes.
+fn along(
+    samples: &[Sample],
+    range: std::ops::RangeInclusive<usize>,
+    of: fn(&Sample, usize) -> f64,
+) -> Vec<Series> {
+    range.map(|i| series(samples, AXES[i], move |sample| of(sample, i))).collect()
+}
+
+/// The same about the axes.
+fn about(
+    samples: &[Sample],
+    range: std::ops::RangeInclusive<usize>,
+    of: fn(&Sample, usize) -> f64,
+) -> Vec<Series> {
+    let name = |i: usize| format!("about {}", AXES[i]);
+    range.map(|i| series(samples, name(i), move |sample| of(sample, i))).collect()
+}
+
+/// One curve a joint of one leg.
+fn leg(samples: &[Sample], side: usize, of: fn(&Sample, usize) -> f64) -> Vec<Series> {
+    (6 * side..6 * side + 6)
+        .map(|i| {
+            let name = JOINTS[i].trim_start_matches("left ").trim_start_matches("right ");
+            series(samples, name, move |sample| of(sample, i))
+        })
+        .collect()
+}
+
+fn joint_angles(samples: &[Sample]) -> Vec<Panel> {
+    let angle = |sample: &Sample, i: usize| sample.positions[7 + i].to_degrees();
+    vec![
+        panel("Left leg, joint angles", "degrees", leg(samples, 0, angle)),
+        panel("Right leg, joint angles", "degrees", leg(samples, 1, angle)),
+    ]
+}
+
+fn joint_torques(samples: &[Sample]) -> Vec<Panel> {
+    let torque = |sample: &Sample, i: usize| sample.torques[i];
+    vec![
+        panel("Left leg, joint torques", "N·m", leg(samples, 0, torque)),
+        panel("Right leg, joint torques", "N·m", leg(samples, 1, torque)),
+    ]
+}
+
+fn body_position(samples: &[Sample]) -> Vec<Panel> {
+    let centimetres = |sample: &Sample, i: usize| 1e2 * sample.positions[i];
+    vec![
+        panel("Centre of mass, world frame: x, y", "cm", along(samples, 0..=1, centimetres)),
+        panel("Centre of mass, world frame: height", "cm", along(samples, 2..=2, centimetres)),
+    ]
+}
+
+fn body_orientation(samples: &[Sample]) -> Vec<Panel> {
+    let vector = |sample: &Sample, i: usize| sample.positions[4 + i];
+    let scalar = series(samples, "scalar", |sample| sample.positions[3]);
+    vec![
+        panel("Unit quaternion, world from body: vector part", "", along(samples, 0..=2, vector)),
+        panel("Unit quaternion, world from body: scalar part", "", vec![scalar]),
+    ]
+}
+
+fn position_error(samples: &[Sample]) -> Vec<Panel> {
+    let centimetres = |sample: &Sample, i: usize| 1e2 * sample.position_error[i];
+    vec![
+        panel("Position error, world frame: x, y", "cm", along(samples, 0..=1, centimetres)),
+        panel("Position error, world frame: height", "cm", along(samples, 2..=2, centimetres)),
+    ]
+}
+
+fn orientation_error(samples: &[Sample]) -> Vec<Panel> {
+    let vector = |sample: &Sample, i: usize| sample.orientation_error[1 + i];
+    // Near the set point the scalar part is 1 less something that only a finer scale shows.
+    let scalar =
+        series(samples, "1 − scalar", |sample| 1e3 * (1.0 - sample.orientation_error[0]));
+    vec![
+        panel("Error quaternion: vector part", "", along(samples, 0..=2, vector)),
+        panel("Error quaternion: 1 less the scalar part", "thousandths", vec![scalar]),
+    ]
+}
+
+fn desired_force(samples: &[Sample]) -> Vec<Panel> {
+    let force = |sample: &Sample, i: usize| sample.desired_wrench[i];
+    vec![
+        panel("Desired force on body 1, body frame: x, y", "N", along(samples, 0..=1, force)),
+        panel("Desired force on body 1, body frame: z", "N", along(samples, 2..=2, force)),
+    ]
+}
+
+fn desired_torque(samples: &[Sample]) -> Vec<Panel> {
+    let torque = |sample: &Sample, i: usize| sample.desired_wrench[3 + i];
+    vec![
+        panel("Desired torque on body 1, body frame: x, y", "N·m", about(samples, 0..=1, torque)),
+        panel("Desired torque on body 1, body frame: z", "N·m", about(samples, 2..=2, torque)),
+    ]
+}
+
+fn tracking_errors(samples: &[Sample]) -> Vec<Panel> {
+    let millimetres = |sample: &Sample, i: usize| 1e3 * sample.position_error[i];
+    let degrees = |sample: &Sample, i: usize| {
+        // The vector part is sin(θ/2) times the axis.
+        let half = sample.error_angle() / 2.0;
+        let scale = if half.sin() > 1e-12 { 2.0 * half / half.sin() } else { 2.0 };
+        (scale * sample.orientation_error[1 + i]).to_degrees()
+    };
+    vec![
+        panel("Position error, world frame", "mm", along(samples, 0..=2, millimetres)),
+        panel(
+            "Rotation vector of the orientation error",
+            "degrees",
+            about(samples, 0..=2, degrees),
+        ),
+    ]
+}
+
+const FEET: [&str; 2] = ["left foot", "right foot"];
+
+fn ground_forces(samples: &[Sample]) -> Vec<Panel> {
+    let vertical =
+        (0..2).map(|i| series(samples, FEET[i], move |sample| sample.foot_forces[i])).collect();
+    let mut panels = vec![panel("Vertical force of the ground on each foot", "N", vertical)];
+    if samples.iter().any(|sample| sample.corner_forces.is_some()) {
+        let horizontal =
+            (0..2).map(|i| series(samples, FEET[i], move |s| friction_force(s, i))).collect();
+        panels.push(panel("Horizontal force of the ground on each foot", "N", horizontal));
+    }
+    if samples.iter().any(|sample| sample.block.is_some()) {
+        let force = |sample: &Sample, i: usize| sample.block.map_or(0.0, |block| -block.force[i]);
+        let force = along(samples, 0..=2, force);
+        panels.push(panel("Force of the block on the body, world frame", "N", force));
+    }
+    panels
+}
+
+/// Size of the horizontal force of the ground on a foot, N.
+fn friction_force(sample: &Sample, foot: usize) -> f64 {
+    let Some(forces) = sample.corner_forces else { return f64::NAN };
+    let (x, y) = forces[foot].iter().fold((0.0, 0.0), |(x, y), force| (x + force[0], y + force[1]));
+    f64::hypot(x, y)
+}

@@ -1,0 +1,245 @@
+//! A picture of a moment, as SVG.
+
+use super::placed::{Placed, back_to_front};
+use super::view::View;
+use super::{FORCE_LENGTH, Shown, body_poses_at};
+use crate::chart::OKABE_ITO;
+use crate::record::Sample;
+use nalgebra::Vector3;
+use std::fmt::Write;
+use surefoot::dynamics::DynamicsFault;
+use surefoot::model::robots::biped::FEET;
+use surefoot::spatial::{Pose, Quaternion};
+
+const WIDTH: f64 = 900.0;
+const HEIGHT: f64 = 640.0;
+const PIXELS_PER_METRE: f64 = 330.0;
+/// From the robot's front (it faces −x) and its left, a little above.
+const AZIMUTH_DEG: f64 = -128.0;
+const ELEVATION_DEG: f64 = 12.0;
+
+type Color = (u8, u8, u8);
+
+const BODY: Color = OKABE_ITO[2];
+const LEFT_LEG: Color = OKABE_ITO[5];
+const RIGHT_LEG: Color = OKABE_ITO[3];
+const BLOCK: Color = OKABE_ITO[4];
+const GROUND_FORCE: Color = OKABE_ITO[1];
+
+/// Draws the robot, the block and the forces of the ground at the sample nearest to a time (s).
+///
+/// # Errors
+/// A [`DynamicsFault`] for a sample that is no configuration.
+pub fn still(shown: &Shown, samples: &[Sample], time_s: f64) -> Result<String, DynamicsFault> {
+    let distance = |sample: &&Sample| (sample.time_s - time_s).abs();
+    let nearest = samples.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let mut svg = format!(
+        "<svg width=\"{WIDTH}\" height=\"{HEIGHT}\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
+         xmlns=\"http://www.w3.org/2000/svg\" font-family=\"sans-serif\">\n\
+         <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#FFFFFF\"/>\n"
+    );
+    if let Some(sample) = nearest {
+        let poses = body_poses_at(&sample.positions)?;
+        // Writing to a string cannot fail.
+        let _ = scene(&mut svg, shown, sample, &poses);
+    }
+    svg.push_str("</svg>\n");
+    Ok(svg)
+}
+
+fn scene(
+    svg: &mut String,
+    shown: &Shown,
+    sample: &Sample,
+    poses: &[Pose<f64>; 13],
+) -> std::fmt::Result {
+    let center = Vector3::new(poses[0].position.x, poses[0].position.y, 0.75);
+    let view = View::new(
+        AZIMUTH_DEG.to_radians(),
+        ELEVATION_DEG.to_radians(),
+        center,
+        PIXELS_PER_METRE,
+        [WIDTH / 2.0, 0.53 * HEIGHT],
+    );
+    let mut solids: Vec<(Placed<'_>, Color)> = shown
+        .solids
+        .iter()
+        .zip(poses)
+        .enumerate()
+        .map(|(k, (solid, pose))| (Placed::new(solid, pose), color(k)))
+        .collect();
+    if let (Some(solid), Some(block)) = (&shown.block, &sample.block) {
+        let [x, y, z, s, i, j, k] = block.pose;
+        let rotation = Quaternion::from_array([s, i, j, k]).to_matrix();
+        let pose = Pose { rotation, position: Vector3::new(x, y, z) };
+        solids.push((Placed::new(solid, &pose), BLOCK));
+    }
+    floor(svg, &view, center)?;
+    for (solid, _) in &solids {
+        paint_shadow(svg, &view, solid)?;
+    }
+    for k in back_to_front(&solids, view.eye()) {
+        let (solid, color) = &solids[k];
+        paint_solid(svg, &view, solid, *color)?;
+    }
+    ground_forces(svg, &view, shown, sample, poses)?;
+    writeln!(
+        svg,
+        "<text x=\"24\" y=\"40\" font-size=\"20\">t = {:.3} s</text>\n\
+         <text x=\"24\" y=\"62\" font-size=\"14\" fill=\"#5A5A5A\">floor in squares of 20 cm; \
+         arrows: forces of the ground, {:.0} cm for 100 N</text>",
+        sample.time_s,
+        1e4 * FORCE_LENGTH,
+    )
+}
+
+/// Left and right legs differ, as does the body.
+fn color(body: usize) -> Color {
+    match body {
+        0 => BODY,
+        1..=6 => LEFT_LEG,
+        _ => RIGHT_LEG,
+    }
+}
+
+fn floor(svg: &mut String, view: &View, center: Vector3<f64>) -> std::fmt::Result {
+    let (x0, y0) = ((center.x / 0.2).round() * 0.2, (center.y / 0.2).round() * 0.2);
+    for k in -4..=4 {
+        let along = 0.2 * f64::from(k);
+        for (from, to) in [
+            (Vector3::new(x0 + along, y0 - 0.8, 0.0), Vector3::new(x0 + along, y0 + 0.8, 0.0)),
+            (Vector3::new(x0 - 0.8, y0 + along, 0.0), Vector3::new(x0 + 0.8, y0 + along, 0.0)),
+        ] {
+            let ([x1, y1], [x2, y2]) = (view.project(&from), view.project(&to));
+            writeln!(
+                svg,
+                "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"#D8D8D8\"/>"
+            )?;
+        }
+    }
+    Ok(())
+}
+
+fn ground_forces(
+    svg: &mut String,
+    view: &View,
+    shown: &Shown,
+    sample: &Sample,
+    poses: &[Pose<f64>; 13],
+) -> std::fmt::Result {
+    let (Some(corners), Some(forces)) = (shown.corners, sample.corner_forces) else {
+        return Ok(());
+    };
+    for (foot, forces) in FEET.iter().zip(forces) {
+        for (corner, force) in corners.iter().zip(forces) {
+            let at = poses[*foot].transform_point(*corner);
+            let force = Vector3::from(force);
+            if force.norm() > 1.0 {
+                arrow(svg, view, at, at + force * FORCE_LENGTH, GROUND_FORCE)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn arrow(
+    svg: &mut String,
+    view: &View,
+    from: Vector3<f64>,
+    to: Vector3<f64>,
+    color: Color,
+) -> std::fmt::Result {
+    let ([x1, y1], [x2, y2]) = (view.project(&from), view.project(&to));
+    let length = f64::hypot(x2 - x1, y2 - y1).max(1e-9);
+    let (ux, uy) = ((x2 - x1) / length, (y2 - y1) / length);
+    let head = length.min(9.0);
+    let (bx, by) = (x2 - head * ux, y2 - head * uy);
+    let (wx, wy) = (-0.45 * head * uy, 0.45 * head * ux);
+    let color = hex(color, 1.0);
+    writeln!(
+        svg,
+        "<path d=\"M{x1:.1} {y1:.1}L{bx:.1} {by:.1}\" stroke=\"{color}\" stroke-width=\"2.5\"/>\
+         <path d=\"M{x2:.1} {y2:.1}L{:.1} {:.1}L{:.1} {:.1}Z\" fill=\"{color}\"/>",
+        bx + wx,
+        by + wy,
+        bx - wx,
+        by - wy,
+    )
+}
+
+fn paint_solid(
+    svg: &mut String,
+    view: &View,
+    solid: &Placed<'_>,
+    color: Color,
+) -> std::fmt::Result {
+    for face in solid.faces {
+        let normal = solid.normal(face);
+        if view.faces_us(&normal) {
+            let fill = hex(color, brightness(&normal));
+            let points = outline(view, solid, face, |v| *v);
+            writeln!(
+                svg,
+                "<polygon points=\"{points}\" fill=\"{fill}\" stroke=\"#202020\" \
+                 stroke-width=\"0.8\" stroke-linejoin=\"round\"/>"
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// All faces as the sun at the zenith throws them on the floor.
+fn paint_shadow(svg: &mut String, view: &View, solid: &Placed<'_>) -> std::fmt::Result {
+    for face in solid.faces {
+        let points = outline(view, solid, face, |v| Vector3::new(v.x, v.y, 0.0));
+        writeln!(svg, "<polygon points=\"{points}\" fill=\"#E6E6E6\"/>")?;
+    }
+    Ok(())
+}
+
+fn outline(
+    view: &View,
+    solid: &Placed<'_>,
+    face: &[usize],
+    of: impl Fn(&Vector3<f64>) -> Vector3<f64>,
+) -> String {
+    let point = |i: &usize| {
+        let [x, y] = view.project(&of(&solid.vertices[*i]));
+        format!("{x:.1},{y:.1}")
+    };
+    face.iter().map(point).collect::<Vec<_>>().join(" ")
+}
+
+/// Of a face with this normal, under a lamp above and to the left of the robot.
+fn brightness(normal: &Vector3<f64>) -> f64 {
+    let lamp = Vector3::new(-0.35, -0.55, 0.76);
+    0.78 + 0.32 * normal.dot(&lamp)
+}
+
+/// A colour, darkened or made lighter.
+fn hex((red, green, blue): Color, brightness: f64) -> String {
+    let part = |part: u8| (f64::from(part) * brightness).clamp(0.0, 255.0).round() as u8;
+    format!("#{:02X}{:02X}{:02X}", part(red), part(green), part(blue))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::closed_loop::{Scalar, controller, run};
+    use crate::scene::load;
+
+    #[test]
+    fn a_still_shows_the_robot_and_its_forces_at_the_nearest_sample() {
+        let mut scene = load("experiment-1").expect("a built-in scene");
+        scene.duration_s = 0.4;
+        let run = run(&scene, controller(&scene, Scalar::F64).as_mut(), &mut |_| {});
+        let svg = still(&Shown::of(&scene), &run.samples, 0.3203).expect("a picture");
+        assert!(svg.contains("t = 0.320 s"));
+        // Of each of 13 solids at least two faces are seen, and all throw shadows.
+        assert!(svg.matches("<polygon").count() > 13 * (2 + 6));
+        assert_eq!(svg.matches("<path").count(), 2 * 8, "an arrow at each corner, with its head");
+        assert!(!svg.contains("NaN"));
+        let nothing = still(&Shown::of(&scene), &[], 0.3).expect("an empty picture");
+        assert_eq!(nothing.matches("<polygon").count(), 0);
+    }
+}

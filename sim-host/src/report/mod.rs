@@ -1,0 +1,7 @@
+//! The report of a robot's run: one page that needs nothing else, with a replay.
+
+mod page;
+mod replay_data;
+mod tables;
+
+pub use page::{PageFailure, Report, page};

@@ -1,0 +1,58 @@
+//! The page in a frame, whose width a headless window's lower limit does not touch, and whose controls a
+//! script works.
+
+use crate::chromium::document;
+use crate::pages;
+use std::path::Path;
+
+/// What the script of `probe.html` found in a page, by name.
+struct Findings(String);
+
+impl Findings {
+    fn of(page: &Path, width: u32) -> Self {
+        let probe = page.with_file_name(format!("probe-{width}.html"));
+        let text = include_str!("probe.html").replace("WIDTH", &width.to_string());
+        std::fs::write(&probe, text).expect("writable");
+        let findings = Self(document(&probe, 5000));
+        assert_eq!(findings.get("done"), "yes");
+        findings
+    }
+
+    fn get(&self, name: &str) -> &str {
+        let attribute = format!(" data-{name}=\"");
+        let (_, rest) = self.0.split_once(&attribute).unwrap_or_else(|| panic!("no {name}"));
+        rest.split('"').next().expect("a value")
+    }
+
+    fn number(&self, name: &str) -> f64 {
+        self.get(name).trim_end_matches(" s").parse().expect("a number")
+    }
+}
+
+#[test]
+fn no_width_makes_the_page_scroll_sideways() {
+    for page in [pages::experiment_1(), pages::with_a_block()] {
+        for width in [320, 390, 768, 1280] {
+            let findings = Findings::of(page, width);
+            assert_eq!(findings.number("client-width"), f64::from(width));
+            assert!(findings.number("scroll-width") <= f64::from(width), "at {width} px");
+            assert_eq!(findings.get("error"), "none");
+        }
+    }
+}
+
+#[test]
+fn keys_drags_and_the_address_move_the_replay() {
+    let findings = Findings::of(pages::with_a_block(), 800);
+    assert_eq!(findings.number("start"), 0.0);
+    assert!((0.001..0.011).contains(&findings.number("stepped")));
+    assert_eq!(findings.number("end"), 3.0);
+    assert_eq!(findings.get("orbited"), "true");
+    assert_eq!(findings.get("reset"), "true");
+    assert_eq!(findings.number("sought"), 0.32);
+    // 0.6 s of the page's time at half the speed.
+    let played = findings.number("played") - 0.32;
+    assert!((0.25..0.35).contains(&played), "{played} s");
+    assert!(findings.number("ticks") >= 7.0);
+    assert_eq!(findings.get("error"), "none");
+}

@@ -1,0 +1,34 @@
+//! What the replay shows.
+
+use crate::chromium::screenshot;
+use crate::pages;
+use crate::picture::{is_block, is_body};
+
+const WINDOW: (u32, u32) = (1280, 900);
+
+#[test]
+fn the_robot_is_seen_and_moves() {
+    let page = pages::experiment_1();
+    let at = |time: &str| screenshot(page, &format!("#t={time}"), WINDOW);
+    let [first, middle, last] = ["0", "0.18", "3"].map(at);
+    for picture in [&first, &middle, &last] {
+        let body = picture.count(is_body);
+        assert!(body > 5_000, "{body} pixels of the body: the canvas is blank");
+        assert!(body < picture.pixels.len() / 4, "{body} pixels of the body");
+    }
+    for (a, b) in [(&first, &middle), (&middle, &last), (&first, &last)] {
+        let changed = a.difference(b);
+        assert!(changed > 2_000, "{changed} pixels differ between two moments");
+    }
+    // The same moment is the same picture.
+    assert_eq!(at("0.18").difference(&middle), 0);
+}
+
+#[test]
+fn a_block_is_seen_where_it_flies() {
+    let page = pages::with_a_block();
+    let block = |time: &str| screenshot(page, &format!("#t={time}"), WINDOW).count(is_block);
+    assert!(block("0.05") > 300, "{} pixels of the block", block("0.05"));
+    let without = screenshot(pages::experiment_1(), "#t=0.05", WINDOW).count(is_block);
+    assert!(without < 100, "{without} pixels of a block that is not there");
+}

@@ -1,0 +1,25 @@
+//! The report's page and its replay, in a browser.
+
+use crate::step::Step;
+use crate::{apt, workspace};
+use anyhow::{Context, Result};
+
+/// Runs the tests that look at the page in Chromium, without a window.
+pub fn run() -> Result<String> {
+    let browser = provide_browser()?;
+    let test = ["test", "--package", "surefoot-tests", "--features", "browser"];
+    workspace::cargo(test).args(["--test", "browser"]).run()?;
+    Ok(format!("report and replay in {browser}"))
+}
+
+/// # Returns
+/// The version of the browser that this machine has, or is given.
+fn provide_browser() -> Result<String> {
+    let version = Step::new("chromium", ["--version"]);
+    if !version.succeeds() {
+        apt::install("chromium").context(
+            "the report is looked at in the browser Chromium, which is not installed and cannot be",
+        )?;
+    }
+    Ok(version.read()?.lines().next().unwrap_or_default().trim().to_owned())
+}
