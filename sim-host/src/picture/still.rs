@@ -14,8 +14,8 @@ use surefoot::spatial::{Pose, Quaternion};
 const WIDTH: f64 = 900.0;
 const HEIGHT: f64 = 640.0;
 const PIXELS_PER_METRE: f64 = 330.0;
-/// From the robot's front (it faces −x) and its left, a little above.
-const AZIMUTH_DEG: f64 = -128.0;
+/// From the robot's right (it faces −x), a little behind and above: a thrown block is seen too.
+const AZIMUTH_DEG: f64 = 66.0;
 const ELEVATION_DEG: f64 = 12.0;
 
 type Color = (u8, u8, u8);
@@ -210,9 +210,9 @@ fn outline(
     face.iter().map(point).collect::<Vec<_>>().join(" ")
 }
 
-/// Of a face with this normal, under a lamp above and to the left of the robot.
+/// Of a face with this normal, under a lamp above, to the right of the robot and a little behind.
 fn brightness(normal: &Vector3<f64>) -> f64 {
-    let lamp = Vector3::new(-0.35, -0.55, 0.76);
+    let lamp = Vector3::new(0.3, 0.55, 0.78);
     0.78 + 0.32 * normal.dot(&lamp)
 }
 

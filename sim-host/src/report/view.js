@@ -28,9 +28,9 @@ const placed = (pose, point) => add(pose, turned(pose.slice(3), point));
 class Camera {
   constructor() { this.reset(); }
 
-  // The robot faces -x; from its front and left, a little above.
+  // The robot faces -x; from its right and a little behind and above, where a thrown block is seen too.
   reset() {
-    this.azimuth = -2.25;
+    this.azimuth = 1.15;
     this.elevation = 0.2;
     this.distance = 3.3;
   }
@@ -106,7 +106,7 @@ function painted(solids, eye) {
   return result;
 }
 
-const LAMP = unit([-0.35, -0.55, 0.76]);
+const LAMP = unit([0.3, 0.55, 0.78]);
 
 function shade([r, g, b], normal) {
   const light = 0.78 + 0.32 * dot(normal, LAMP);
