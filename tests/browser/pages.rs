@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 use surefoot_sim::closed_loop::{Run, Scalar, controller, run};
 use surefoot_sim::contact::Floor;
-use surefoot_sim::record::{BlockSample, Event, EventKind};
+use surefoot_sim::plant::BlockSample;
+use surefoot_sim::record::{Event, EventKind};
 use surefoot_sim::report::{Report, page};
 use surefoot_sim::scene::{Block, Feet, Scene, StruckBox, TorquesFrom, load};
 

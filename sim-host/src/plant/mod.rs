@@ -12,14 +12,13 @@ mod welded;
 pub use configuration::retract;
 pub use on_floor::OnFloor;
 pub use struck::Struck;
-pub use thrown_block::ThrownBlock;
+pub use thrown_block::{BlockSample, ThrownBlock};
 pub use variational::{Additions, Variational};
 pub use welded::Welded;
 
 use crate::contact::ContactState;
 use crate::integrators::{Progress, StepError};
 use crate::multibody::{Checkpoint, SystemError};
-use crate::record::BlockSample;
 use surefoot::dynamics::DynamicsFault;
 use surefoot::spatial::{Pose, Wrench};
 

@@ -1,11 +1,10 @@
 //! A thrown block beside an explicit plant: semi-implicit Euler for the block, and the forces between it and
 //! the central body at the step's beginning.
 
-use super::thrown_block::ThrownBlock;
+use super::thrown_block::{BlockSample, ThrownBlock};
 use super::{DIVERGED, Observation, Plant, PlantState, StepFailure};
 use crate::contact::{BoxPoint, ContactPoint, ContactState, Floor};
 use crate::multibody::{BOX_POINTS, CORNERS};
-use crate::record::BlockSample;
 use nalgebra::{Matrix3, Vector3};
 use surefoot::model::robots::biped::TREE;
 use surefoot::spatial::{Quaternion, Wrench};

@@ -21,6 +21,15 @@ pub struct ThrownBlock {
     pub around: YieldingBox,
 }
 
+/// A thrown block at a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlockSample {
+    /// Centre of mass (m) and orientation (unit quaternion, scalar first), world frame.
+    pub pose: [f64; 7],
+    /// Force on it of the body that it strikes, N, world frame.
+    pub force: [f64; 3],
+}
+
 impl ThrownBlock {
     /// Principal inertias, kg·m².
     pub fn inertia(&self) -> [f64; 3] {

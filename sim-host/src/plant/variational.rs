@@ -1,14 +1,13 @@
 //! The biped on the symplectic simulator of chapter 5: the default plant.
 
 use super::joint_stops::with_stops;
-use super::{NV, Observation, Plant, PlantState, StepFailure, ThrownBlock};
+use super::{BlockSample, NV, Observation, Plant, PlantState, StepFailure, ThrownBlock};
 use crate::contact::{ContactState, Floor, Switching};
 use crate::integrators::Progress;
 use crate::multibody::{
     Checkpoint, Closing, Closure, Joint, JointConstraint, Simulation, Site, Stops, System,
     states_of_tree, system_of_tree,
 };
-use crate::record::BlockSample;
 use nalgebra::Vector3;
 use surefoot::model::robots::biped::{FEET, SoleOutline, TREE};
 use surefoot::spatial::{Quaternion, Wrench};

@@ -102,7 +102,7 @@ fn row(sample: &Sample) -> Vec<String> {
 mod tests {
     use super::*;
     use crate::contact::ContactState;
-    use crate::record::BlockSample;
+    use crate::plant::BlockSample;
 
     #[test]
     fn rows_have_the_headers_columns_and_give_back_the_numbers() {

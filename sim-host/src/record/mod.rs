@@ -15,7 +15,7 @@ pub use saved::{HardwareMemory, SavedRun};
 pub use settling::Settling;
 
 use crate::contact::ContactState;
-use crate::plant::{NQ, NV};
+use crate::plant::{BlockSample, NQ, NV};
 
 /// One sample, taken at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,15 +45,6 @@ pub struct Sample {
     pub corner_forces: Option<[[[f64; 3]; 4]; 2]>,
     /// The thrown block, if there is one.
     pub block: Option<BlockSample>,
-}
-
-/// A thrown block at a tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BlockSample {
-    /// Centre of mass (m) and orientation (unit quaternion, scalar first), world frame.
-    pub pose: [f64; 7],
-    /// Force on it of the body that it strikes, N, world frame.
-    pub force: [f64; 3],
 }
 
 impl Sample {
