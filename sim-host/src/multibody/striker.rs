@@ -5,7 +5,7 @@ use crate::contact::{Switching, YieldingBox};
 /// A free body whose points strike a box around another body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Striker {
-    /// The free body's link: one that floats, and comes after the one that it strikes.
+    /// The free body's link: one that floats, and comes after all that do not strike.
     pub link: usize,
     /// Its points, in its frame, m.
     pub points: Vec<[f64; 3]>,

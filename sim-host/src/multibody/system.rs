@@ -140,7 +140,8 @@ impl System {
         Ok(self)
     }
 
-    /// With a free body that strikes another. Each free body strikes one body at most.
+    /// With a free body that strikes another. Each free body strikes one body at most; those that strike
+    /// come after all other links, in their order.
     ///
     /// # Errors
     /// [`SystemError::Striker`], [`SystemError::Floor`] for its surface.
@@ -159,6 +160,15 @@ impl System {
         }
         self.strikers.push(striker);
         Ok(self)
+    }
+
+    /// Strikers are the last links, so that no other has to be asked whether it is one.
+    pub(super) fn check_strikers(&self) -> Result<(), SystemError> {
+        let first = self.links.len() - self.strikers.len();
+        match self.strikers.iter().zip(first..).position(|(striker, link)| striker.link != link) {
+            Some(striker) => Err(SystemError::Striker { striker }),
+            None => Ok(()),
+        }
     }
 
     /// Free bodies that strike others.

@@ -55,9 +55,9 @@ pub enum SystemError {
         /// Which one.
         site: usize,
     },
-    /// A striker is no free body after the one that it strikes, or a number of it is not finite.
+    /// A striker is no free body after all others, or a number of it is not finite.
     #[error(
-        "striker {striker}: it must be a floating link after the one that it strikes, with nothing on it, and \
+        "striker {striker}: it must be a floating link after all that do not strike, with nothing on it, and \
          finite points and a box with a size are needed"
     )]
     Striker {

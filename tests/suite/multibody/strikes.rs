@@ -24,6 +24,8 @@ const AROUND: YieldingBox =
 const BODIES: [Body; 2] =
     [Body { mass: 45.0, inertia: [1.67, 1.58, 0.581] }, Body { mass: 1.8, inertia: [0.00192; 3] }];
 
+const H: f64 = 1e-3;
+
 fn free(body: Body) -> Link {
     let joint = Joint {
         outboard: [0.0; 3],
@@ -181,6 +183,11 @@ fn bad_strikers_are_refused() {
         let error = system().with_striker(striker).expect_err("refused");
         assert_eq!(error, SystemError::Striker { striker: 0 });
     }
+    // A link after those that strike.
+    let late = system().with_striker(striker(SURFACE)).and_then(|s| s.with_link(free(BODIES[0])));
+    let at = |x: f64| [x, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+    let error = Simulation::new(late.expect("links"), H, &[0.0, 1.0, 2.0].map(at), &[[0.0; 7]; 3]);
+    assert_eq!(error.expect_err("refused"), SystemError::Striker { striker: 0 });
     let surface = Floor { normal_stiffness: -1.0, ..SURFACE };
     let error = system().with_striker(striker(surface)).expect_err("refused");
     assert!(matches!(error, SystemError::Floor { parameter: "normal_stiffness", .. }), "{error}");

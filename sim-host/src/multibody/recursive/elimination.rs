@@ -24,7 +24,7 @@ pub(super) struct Elimination {
     motions: Vec<Pair>,
     /// By column: what is left of its equation when its turn comes.
     left: Vec<f64>,
-    /// Free bodies that touch others now, by striker.
+    /// Free bodies that touch others now, by striker: these are the last nodes.
     bonds: Vec<Option<Bond>>,
 }
 
@@ -38,8 +38,7 @@ const UNITS: [Vector3<f64>; 3] =
     [Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 1.0, 0.0), Vector3::new(0.0, 0.0, 1.0)];
 
 impl Elimination {
-    pub fn new(all: &[Node], columns: usize) -> Self {
-        let nodes = all.len();
+    pub fn new(nodes: usize, columns: usize, strikers: usize) -> Self {
         let nothing = [Vector3::zeros(); 3];
         Self {
             columns: vec![Column::NONE; columns],
@@ -51,7 +50,7 @@ impl Elimination {
             impulses: vec![Pair::ZERO; nodes],
             motions: vec![Pair::ZERO; nodes],
             left: vec![0.0; columns],
-            bonds: vec![None; all.iter().filter(|node| node.striker.is_some()).count()],
+            bonds: vec![None; strikers],
         }
     }
 
@@ -67,67 +66,84 @@ impl Elimination {
         h: f64,
     ) -> Result<(), usize> {
         self.stiffness.fill(Stiffness::ZERO);
-        for k in (0..nodes.len()).rev() {
-            let (node, place, end) = (&nodes[k], &places[k], &trial.ends[k]);
-            let geometry = Geometry {
-                axes: [place.axes, end.axes],
-                from_inboard: [place.from_inboard, end.from_inboard],
-            };
-            self.geometry[k] = geometry;
-            let part = &mut self.stiffness[k];
-            add_own(part, node, place, end, &trial.touches, h);
-            if let Some(number) = node.striker {
-                let strike = &trial.strikes[number];
-                self.bonds[number] = None;
-                if let Some(contact) = strike.stiffness(h) {
+        for (number, strike) in trial.strikes.iter().enumerate() {
+            let k = strike.link;
+            self.bonds[number] = None;
+            match strike.stiffness(h) {
+                None => self.factor_node(k, nodes, places, trial, h)?,
+                Some(contact) => {
+                    let part = &mut self.stiffness[k];
+                    add_own(part, &nodes[k], &places[k], &trial.ends[k], &trial.touches, h);
                     let arms = strike.arms(places, &trial.ends);
                     let (bond, passed) = Bond::new(strike.struck, arms, part, &contact).ok_or(k)?;
                     self.stiffness[bond.to].add_shifted(&passed, &arms[0], &arms[1]);
                     self.bonds[number] = Some(bond);
-                    continue;
                 }
             }
-            let first = node.columns.start;
-            let slopes = &trial.own_slopes[node.columns.clone()];
-            let mut keep = |c: usize, column: Option<Column>| match column {
-                Some(column) => {
-                    self.columns[first + c] = column;
-                    Ok(())
-                }
-                None => Err(k),
-            };
-            let [begin, end] = &geometry.axes;
-            match node.kind {
-                Kind::Fixed => {}
-                Kind::Revolute => {
-                    keep(0, part.eliminate_turn(&begin[0], &end[0], -slopes[0]))?;
-                }
-                Kind::Prismatic => {
-                    keep(0, part.eliminate_shift(&begin[0], &end[0], -slopes[0]))?;
-                }
-                Kind::Universal => {
-                    keep(0, part.eliminate_turn(&begin[0], &end[0], 0.0))?;
-                    keep(1, part.eliminate_turn(&begin[1], &end[1], 0.0))?;
-                }
-                Kind::Spherical => {
-                    for i in 0..3 {
-                        keep(i, part.eliminate_turn(&UNITS[i], &end[i], 0.0))?;
-                    }
-                }
-                Kind::Floating => {
-                    for i in 0..3 {
-                        keep(i, part.eliminate_shift(&UNITS[i], &UNITS[i], 0.0))?;
-                    }
-                    for i in 0..3 {
-                        keep(3 + i, part.eliminate_turn(&UNITS[i], &UNITS[i], 0.0))?;
-                    }
+        }
+        for k in (0..nodes.len() - trial.strikes.len()).rev() {
+            self.factor_node(k, nodes, places, trial, h)?;
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn factor_node(
+        &mut self,
+        k: usize,
+        nodes: &[Node],
+        places: &[Place],
+        trial: &Trial,
+        h: f64,
+    ) -> Result<(), usize> {
+        let (node, place, end) = (&nodes[k], &places[k], &trial.ends[k]);
+        let geometry = Geometry {
+            axes: [place.axes, end.axes],
+            from_inboard: [place.from_inboard, end.from_inboard],
+        };
+        self.geometry[k] = geometry;
+        let part = &mut self.stiffness[k];
+        add_own(part, node, place, end, &trial.touches, h);
+        let first = node.columns.start;
+        let slopes = &trial.own_slopes[node.columns.clone()];
+        let mut keep = |c: usize, column: Option<Column>| match column {
+            Some(column) => {
+                self.columns[first + c] = column;
+                Ok(())
+            }
+            None => Err(k),
+        };
+        let [begin, end] = &geometry.axes;
+        match node.kind {
+            Kind::Fixed => {}
+            Kind::Revolute => {
+                keep(0, part.eliminate_turn(&begin[0], &end[0], -slopes[0]))?;
+            }
+            Kind::Prismatic => {
+                keep(0, part.eliminate_shift(&begin[0], &end[0], -slopes[0]))?;
+            }
+            Kind::Universal => {
+                keep(0, part.eliminate_turn(&begin[0], &end[0], 0.0))?;
+                keep(1, part.eliminate_turn(&begin[1], &end[1], 0.0))?;
+            }
+            Kind::Spherical => {
+                for i in 0..3 {
+                    keep(i, part.eliminate_turn(&UNITS[i], &end[i], 0.0))?;
                 }
             }
-            if let Some(inboard) = node.inboard {
-                let part = *part;
-                let [begin, end] = &geometry.from_inboard;
-                self.stiffness[inboard].add_shifted(&part, begin, end);
+            Kind::Floating => {
+                for i in 0..3 {
+                    keep(i, part.eliminate_shift(&UNITS[i], &UNITS[i], 0.0))?;
+                }
+                for i in 0..3 {
+                    keep(3 + i, part.eliminate_turn(&UNITS[i], &UNITS[i], 0.0))?;
+                }
             }
+        }
+        if let Some(inboard) = node.inboard {
+            let part = *part;
+            let [begin, end] = &geometry.from_inboard;
+            self.stiffness[inboard].add_shifted(&part, begin, end);
         }
         Ok(())
     }
@@ -142,69 +158,90 @@ impl Elimination {
         corrections: &mut [f64],
     ) {
         self.impulses.fill(Pair::ZERO);
-        for k in (0..nodes.len()).rev() {
-            let node = &nodes[k];
-            let mut z = impulse(k);
-            z.linear += self.impulses[k].linear;
-            z.angular += self.impulses[k].angular;
-            if let Some(bond) = node.striker.and_then(|number| self.bonds[number].as_ref()) {
-                let first = node.columns.start;
-                z.subtract(&Pair::of_columns(|c| own(first + c)));
-                self.impulses[bond.to].add_shifted(&bond.passed(&z), &bond.arms[0]);
-                self.impulses[k] = z;
+        let tree = nodes.len() - self.bonds.len();
+        for k in tree..nodes.len() {
+            let Some(bond) = &self.bonds[k - tree] else {
+                self.collect(k, nodes, impulse(k), &own);
                 continue;
-            }
-            let axes = &self.geometry[k].axes[0];
-            let first = node.columns.start;
-            for c in node.columns.clone() {
-                let along = match (node.kind, c - first) {
-                    (Kind::Prismatic, i) => axes[i].dot(&z.linear),
-                    (Kind::Floating, i @ 0..3) => z.linear[i],
-                    (Kind::Floating, i) => z.angular[i - 3],
-                    (_, i) => axes[i].dot(&z.angular),
-                };
-                let left = along - own(c);
-                self.left[c] = left;
-                let column = &self.columns[c];
-                let share = left * column.inverse;
-                z.linear -= column.impulse.linear * share;
-                z.angular -= column.impulse.angular * share;
-            }
-            if let Some(inboard) = node.inboard {
-                let arm = self.geometry[k].from_inboard[0];
-                self.impulses[inboard].add_shifted(&z, &arm);
-            }
-        }
-        for k in 0..nodes.len() {
-            let node = &nodes[k];
-            if let Some(bond) = node.striker.and_then(|number| self.bonds[number].as_ref()) {
-                let motion = bond.motion(&self.impulses[k], &self.motions[bond.to]);
-                corrections[node.columns.clone()].copy_from_slice(motion.vector().as_slice());
-                self.motions[k] = motion;
-                continue;
-            }
-            let Geometry { axes, from_inboard } = &self.geometry[k];
-            let mut motion = match node.inboard {
-                None => Pair::ZERO,
-                Some(i) => {
-                    let Pair { linear, angular } = self.motions[i];
-                    Pair { linear: linear + angular.cross(&from_inboard[1]), angular }
-                }
             };
-            let first = node.columns.start;
-            for c in node.columns.clone().rev() {
-                let column = &self.columns[c];
-                let by = -(self.left[c] + column.answer.dot(&motion)) * column.inverse;
-                corrections[c] = by;
-                match (node.kind, c - first) {
-                    (Kind::Prismatic, i) => motion.linear += axes[1][i] * by,
-                    (Kind::Floating, i @ 0..3) => motion.linear[i] += by,
-                    (Kind::Floating, i) => motion.angular[i - 3] += by,
-                    (_, i) => motion.angular += axes[1][i] * by,
-                }
-            }
+            let mut z = impulse(k);
+            let first = nodes[k].columns.start;
+            z.subtract(&Pair::of_columns(|c| own(first + c)));
+            self.impulses[bond.to].add_shifted(&bond.passed(&z), &bond.arms[0]);
+            self.impulses[k] = z;
+        }
+        for k in (0..tree).rev() {
+            self.collect(k, nodes, impulse(k), &own);
+        }
+        for k in 0..tree {
+            self.distribute(k, nodes, corrections);
+        }
+        for k in tree..nodes.len() {
+            let Some(bond) = &self.bonds[k - tree] else {
+                self.distribute(k, nodes, corrections);
+                continue;
+            };
+            let motion = bond.motion(&self.impulses[k], &self.motions[bond.to]);
+            let own = &mut corrections[nodes[k].columns.clone()];
+            own.copy_from_slice(motion.vector().as_slice());
             self.motions[k] = motion;
         }
+    }
+
+    /// Takes the impulse on a node, with what is outboard, to its columns, and hands the rest inboard.
+    #[inline(always)]
+    fn collect(&mut self, k: usize, nodes: &[Node], on_body: Pair, own: &impl Fn(usize) -> f64) {
+        let node = &nodes[k];
+        let mut z = on_body;
+        z.linear += self.impulses[k].linear;
+        z.angular += self.impulses[k].angular;
+        let axes = &self.geometry[k].axes[0];
+        let first = node.columns.start;
+        for c in node.columns.clone() {
+            let along = match (node.kind, c - first) {
+                (Kind::Prismatic, i) => axes[i].dot(&z.linear),
+                (Kind::Floating, i @ 0..3) => z.linear[i],
+                (Kind::Floating, i) => z.angular[i - 3],
+                (_, i) => axes[i].dot(&z.angular),
+            };
+            let left = along - own(c);
+            self.left[c] = left;
+            let column = &self.columns[c];
+            let share = left * column.inverse;
+            z.linear -= column.impulse.linear * share;
+            z.angular -= column.impulse.angular * share;
+        }
+        if let Some(inboard) = node.inboard {
+            let arm = self.geometry[k].from_inboard[0];
+            self.impulses[inboard].add_shifted(&z, &arm);
+        }
+    }
+
+    /// Takes the motion of what is inboard, with that of a node's columns, outboard.
+    #[inline(always)]
+    fn distribute(&mut self, k: usize, nodes: &[Node], corrections: &mut [f64]) {
+        let node = &nodes[k];
+        let Geometry { axes, from_inboard } = &self.geometry[k];
+        let mut motion = match node.inboard {
+            None => Pair::ZERO,
+            Some(i) => {
+                let Pair { linear, angular } = self.motions[i];
+                Pair { linear: linear + angular.cross(&from_inboard[1]), angular }
+            }
+        };
+        let first = node.columns.start;
+        for c in node.columns.clone().rev() {
+            let column = &self.columns[c];
+            let by = -(self.left[c] + column.answer.dot(&motion)) * column.inverse;
+            corrections[c] = by;
+            match (node.kind, c - first) {
+                (Kind::Prismatic, i) => motion.linear += axes[1][i] * by,
+                (Kind::Floating, i @ 0..3) => motion.linear[i] += by,
+                (Kind::Floating, i) => motion.angular[i - 3] += by,
+                (_, i) => motion.angular += axes[1][i] * by,
+            }
+        }
+        self.motions[k] = motion;
     }
 
     /// Motions of the reference points in the last solution.

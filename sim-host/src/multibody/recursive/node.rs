@@ -47,8 +47,6 @@ pub(super) struct Node {
     pub columns: Range<usize>,
     /// Contact sites, likewise.
     pub sites: Range<usize>,
-    /// Which of the system's strikers it is.
-    pub striker: Option<usize>,
     pub mass: f64,
     pub inertia: Vector3<f64>,
     /// The joint's point in the outboard and in the inboard body.
@@ -113,7 +111,6 @@ pub(super) fn nodes(system: &System) -> (Vec<Node>, usize) {
             inboard: if is_floating { None } else { *inboard },
             columns: columns..columns + kind.columns(),
             sites: sites..sites + touching,
-            striker: system.strikers().iter().position(|striker| striker.link == k),
             mass: body.mass,
             inertia: body.inertia.into(),
             outboard_point: point(joint.outboard),

@@ -50,6 +50,7 @@ impl Simulation {
         if !(h > 0.0 && h.is_finite()) {
             return Err(SystemError::Step { h });
         }
+        system.check_strikers()?;
         system.check_start(states, rates)?;
         let (nodes, columns) = nodes(&system);
         let coordinates: Vec<Coordinates> = system
@@ -90,7 +91,7 @@ impl Simulation {
             base_multipliers: vec![0.0; loops.len()],
             trial,
             corrections: vec![0.0; columns],
-            elimination: Elimination::new(&nodes, columns),
+            elimination: Elimination::new(nodes.len(), columns, system.strikers().len()),
             loops,
             nodes,
             system,
