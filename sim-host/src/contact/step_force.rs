@@ -68,6 +68,7 @@ fn normal_force(floor: &Floor, switching: Switching, z0: f64, way: f64, h: f64) 
 impl ContactPoint {
     /// The force over a step from `p₀` by `way = p₁ − p₀`, with the transitions of that step. The state
     /// entered acts in the same step.
+    #[inline(always)]
     pub fn over_step(
         &self,
         floor: &Floor,

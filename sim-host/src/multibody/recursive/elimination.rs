@@ -251,7 +251,7 @@ impl Elimination {
 }
 
 /// A body's own stiffness, and that of the floor under it.
-#[inline]
+#[inline(always)]
 fn add_own(part: &mut Stiffness, node: &Node, place: &Place, end: &End, touches: &[Touch], h: f64) {
     // With the end turned by δφ more: δ(c, v) = ½ (−v·δφ, N δφ), N = c 1 − v̂, so that
     // ∂L/∂φ = 1/h [(c I − (I v)^ + v̂ I) N − (I v) vᵀ].

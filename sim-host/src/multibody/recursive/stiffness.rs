@@ -145,7 +145,7 @@ impl Stiffness {
     }
 
     /// Another part's, whose point lies at the end of these arms.
-    #[inline]
+    #[inline(always)]
     pub fn add_shifted(&mut self, part: &Self, begin: &Vector3<f64>, end: &Vector3<f64>) {
         let by_turn = part.force_by_turn - times_skew(&part.force_by_place, end);
         let moment_by_turn = part.moment_by_turn - times_skew(&part.moment_by_place, end);
