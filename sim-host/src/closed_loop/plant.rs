@@ -10,7 +10,7 @@ pub(super) fn plant(scene: &Scene) -> Result<Box<dyn Plant>, StepFailure> {
     let stops = scene.acting.joint_stops.map(|stops| stops.in_radians());
     let block = scene.block.as_ref().map(Block::thrown);
     if scene.integrator.name == Method::Variational {
-        let additions = Additions { stops, block };
+        let additions = Additions { model: scene.rung().model, stops, block };
         return Ok(Box::new(match &scene.feet {
             Feet::Floor { outline, floor } => {
                 Variational::on_floor(&start, step, *floor, &outline.sole(), &additions)?

@@ -2,6 +2,7 @@
 
 use super::body::{Body, BodyState};
 use super::closure::Closure;
+use super::gimbal::Gimbal;
 use super::joint::{Joint, JointConstraint};
 use super::joint_law::JointLaw;
 use super::striker::Striker;
@@ -35,6 +36,7 @@ pub struct System {
     /// m/s², against z.
     gravity: f64,
     laws: Vec<(usize, JointLaw)>,
+    gimbals: Vec<(usize, Gimbal)>,
     ground: Option<(Floor, Switching)>,
     sites: Vec<Site>,
     closures: Vec<Closure>,
@@ -63,6 +65,7 @@ impl System {
             links,
             gravity,
             laws: Vec::new(),
+            gimbals: Vec::new(),
             ground: None,
             sites: Vec::new(),
             closures: Vec::new(),
@@ -76,9 +79,9 @@ impl System {
     /// As for [`Self::new`].
     pub fn with_link(mut self, link: Link) -> Result<Self, SystemError> {
         self.links.push(link);
-        let System { links, gravity, laws, ground, sites, closures, strikers } = self;
+        let System { links, gravity, laws, gimbals, ground, sites, closures, strikers } = self;
         let checked = Self::new(links, gravity)?;
-        Ok(Self { laws, ground, sites, closures, strikers, ..checked })
+        Ok(Self { laws, gimbals, ground, sites, closures, strikers, ..checked })
     }
 
     /// With a spring, damping or stops in the joint of a link.
@@ -97,6 +100,20 @@ impl System {
             return Err(SystemError::Law { link });
         }
         self.laws.push((link, law));
+        Ok(self)
+    }
+
+    /// With motors in the spherical joint of a link.
+    ///
+    /// # Errors
+    /// [`SystemError::Gimbal`].
+    pub fn with_gimbal(mut self, link: usize, gimbal: Gimbal) -> Result<Self, SystemError> {
+        let is_ball =
+            self.links.get(link).is_some_and(|l| l.joint.constraint == JointConstraint::Spherical);
+        if !is_ball || self.gimbals.iter().any(|(other, _)| *other == link) {
+            return Err(SystemError::Gimbal { link });
+        }
+        self.gimbals.push((link, gimbal));
         Ok(self)
     }
 
@@ -169,6 +186,11 @@ impl System {
     /// Laws of joints, by link.
     pub fn laws(&self) -> &[(usize, JointLaw)] {
         &self.laws
+    }
+
+    /// Motors of spherical joints, by link.
+    pub fn gimbals(&self) -> &[(usize, Gimbal)] {
+        &self.gimbals
     }
 
     /// The floor, and when points enter and leave it.

@@ -1,5 +1,6 @@
 //! Plants: robots that move under torques.
 
+mod biped_model;
 mod configuration;
 mod energies;
 mod joint_stops;
@@ -9,6 +10,7 @@ mod thrown_block;
 mod variational;
 mod welded;
 
+pub use biped_model::{BipedModel, SMALL_BODIES};
 pub use configuration::retract;
 pub use on_floor::OnFloor;
 pub use struck::Struck;

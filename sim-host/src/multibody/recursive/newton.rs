@@ -85,6 +85,7 @@ impl Simulation {
             *guess = last[k].beyond(&before[k], ratio);
         }
         self.trial.begin(&self.system, &self.nodes, &self.places, self.at.fastest, h);
+        self.trial.begin_motors(&self.motors, &self.loads);
         if !self.loops.is_empty() {
             self.loops.begin(self.system.closures(), &self.places);
         }
@@ -144,6 +145,10 @@ impl Simulation {
             return Err(self.at.progress.error(StepFailure::WrongBranch));
         }
         self.accept(h);
+        if let Some(motors) = self.motors.iter().find(|motors| motors.is_locked()) {
+            let joint = motors.link;
+            return Err(self.at.progress.error(StepFailure::GimbalLock { joint }));
+        }
         self.at.progress.iterated(iterations, error);
         Ok(())
     }
@@ -228,8 +233,13 @@ impl Simulation {
                 *before = before.scaled(h / self.at.last_h);
             }
         }
+        let ratio = h / self.at.last_h;
         self.at.last_h = h;
         self.find_places();
+        for (motors, turned) in self.motors.iter().zip(&mut self.at.turned) {
+            turned.go_on(motors.angles(), ratio);
+        }
+        self.trial.end_motors(&self.motors, &self.loads, h);
         let coordinates = &self.at.coordinates;
         let step = Step {
             system: &self.system,

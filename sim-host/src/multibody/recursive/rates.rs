@@ -27,13 +27,15 @@ impl Simulation {
     /// Velocities by column from the last two steps' mean ones, carried on to now; before the first step,
     /// those of the start. They are of the method's order like those that belong to the momentum. Where a
     /// stiff damper holds a joint, as the floor holds a foot, the momentum swings to and fro about them: this
-    /// is what encoders see.
+    /// is what encoders see. Of a spherical joint with motors they are the motors' rates.
     ///
     /// # Errors
     /// As for [`Self::column_rates`].
     pub fn observed_rates(&mut self) -> Result<&[f64], StepError> {
         if self.at.progress.steps == 0 {
-            return self.column_rates();
+            self.column_rates()?;
+            self.motors.iter().for_each(|motors| motors.tell_rates(&mut self.corrections));
+            return Ok(&self.corrections);
         }
         let h = self.at.last_h;
         let [last, before] = &self.at.last;
@@ -42,6 +44,10 @@ impl Simulation {
             rates.fill(0.0);
             node.add_mean_rates(&last[k], 1.5 / h, rates);
             node.add_mean_rates(&before[k], -0.5 / h, rates);
+        }
+        for (motors, turned) in self.motors.iter().zip(&self.at.turned) {
+            let rates = &mut self.corrections[motors.column..motors.column + 3];
+            rates.copy_from_slice(&turned.observed(h));
         }
         Ok(&self.corrections)
     }

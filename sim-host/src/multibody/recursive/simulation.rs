@@ -7,6 +7,7 @@ use super::checkpoint::Checkpoint;
 use super::coordinates::{Coordinates, Increment};
 use super::elimination::Elimination;
 use super::loops::{Loops, MOST};
+use super::motors::{Motors, Turned};
 use super::node::{Kind, Node, Place, nodes};
 use super::step::{Loads, Trial, project};
 use super::stiffness::Pair;
@@ -26,6 +27,7 @@ pub struct Simulation {
     pub(super) splits: bool,
     pub(super) places: Vec<Place>,
     pub(super) loads: Loads,
+    pub(super) motors: Vec<Motors>,
     /// What a column's momentum is in speed, 1/kg or 1/(kg·m).
     pub(super) weights: Vec<f64>,
     pub(super) trial: Trial,
@@ -66,6 +68,7 @@ impl Simulation {
             return Err(SystemError::TooManyLoops { constraints: loops.len(), most: MOST });
         }
         let trial = Trial::new(&system, &nodes, columns);
+        let motors = Motors::all(&system, &nodes);
         let at = Checkpoint {
             coordinates,
             momenta: vec![0.0; columns],
@@ -76,6 +79,7 @@ impl Simulation {
             forces: vec![[0.0; 3]; system.sites().len()],
             strikes: vec![BoxPoint::default(); trial.strikes.last().map_or(0, |s| s.points.end)],
             strike_forces: vec![[0.0; 3]; trial.strikes.len()],
+            turned: vec![Turned::default(); motors.len()],
             fastest: system.gravity().abs() * h,
             progress: Progress::new(h),
         };
@@ -85,6 +89,7 @@ impl Simulation {
             at,
             splits: true,
             places: vec![Place::world(); nodes.len()],
+            motors,
             loads: Loads { torques: vec![0.0; columns], wrenches: vec![Pair::ZERO; nodes.len()] },
             base: trial.increments.clone(),
             base_multipliers: vec![0.0; loops.len()],
@@ -96,6 +101,9 @@ impl Simulation {
             system,
         };
         simulation.find_places();
+        if let Some(motors) = simulation.motors.iter().find(|motors| motors.is_locked()) {
+            return Err(SystemError::GimbalLock { link: motors.link });
+        }
         simulation.set_rates(rates);
         Ok(simulation)
     }
@@ -157,11 +165,38 @@ impl Simulation {
         self.at.coordinates[link].angles[0]
     }
 
+    /// Angles of a joint's motors: two of a universal joint, three of a spherical one with motors, one as for
+    /// [`Self::angle`]; then zeros.
+    pub fn angles(&self, link: usize) -> [f64; 3] {
+        match self.motors.iter().find(|motors| motors.link == link) {
+            Some(motors) => motors.angles(),
+            None => {
+                let [first, second] = self.at.coordinates[link].angles;
+                [first, second, 0.0]
+            }
+        }
+    }
+
     /// Holds a torque (N·m) in a revolute joint, or a force (N) in a prismatic one, until it is set again.
     /// Other joints have no motor.
     pub fn set_torque(&mut self, link: usize, torque: f64) {
         if matches!(self.nodes[link].kind, Kind::Revolute | Kind::Prismatic) {
             self.loads.torques[self.nodes[link].columns.start] = torque;
+        }
+    }
+
+    /// Holds torques (N·m; forces, N, of a prismatic joint) in as many motors as a joint has, in the order of
+    /// [`Self::angles`], until they are set again. A spherical joint without motors and a floating one take none.
+    pub fn set_torques(&mut self, link: usize, torques: &[f64]) {
+        let node = &self.nodes[link];
+        let has_motors = match node.kind {
+            Kind::Spherical => self.motors.iter().any(|motors| motors.link == link),
+            Kind::Floating => false,
+            _ => true,
+        };
+        if has_motors {
+            let held = &mut self.loads.torques[node.columns.clone()];
+            held.iter_mut().zip(torques).for_each(|(held, torque)| *held = *torque);
         }
     }
 
@@ -202,6 +237,10 @@ impl Simulation {
             let inboard = node.inboard.map_or(&world, |i| &self.places[i]);
             self.places[k] = node.place(&self.at.coordinates[k], inboard);
         }
+        for motors in &mut self.motors {
+            let inboard = self.nodes[motors.link].inboard.map_or(&world, |i| &self.places[i]);
+            motors.find(self.at.coordinates[motors.link].orientation, inboard);
+        }
     }
 
     /// Momenta of these rates, and a first guess of the increments.
@@ -228,6 +267,12 @@ impl Simulation {
                 let by = &self.corrections[node.columns.clone()];
                 self.at.last[0][k] = node.corrected(&Increment::NONE, by, h);
                 self.at.last[1][k] = self.at.last[0][k];
+            }
+            for (motors, turned) in self.motors.iter().zip(&mut self.at.turned) {
+                motors.tell_rates(&mut self.corrections);
+                let c = motors.column;
+                let step = std::array::from_fn(|i| self.corrections[c + i] * h);
+                *turned = Turned::start(motors.angles(), step);
             }
         }
     }

@@ -17,6 +17,7 @@
 //! the arms of either: then their moment about any point is that of the mean position.
 
 use super::coordinates::Increment;
+use super::motors::Motors;
 use super::node::{Kind, Node, Place};
 use super::stiffness::Pair;
 use super::strike::Strike;
@@ -81,6 +82,8 @@ pub(super) struct Trial {
     pub touches: Vec<Touch>,
     pub strikes: Vec<Strike>,
     pub laws: Vec<Law>,
+    /// Torques of spherical joints' motors at the step's beginning, world axes, with their first columns.
+    pub motor_torques: Vec<(usize, Vector3<f64>)>,
     /// By column: `½h τ`, and its derivative.
     pub own_impulses: Vec<f64>,
     pub own_slopes: Vec<f64>,
@@ -139,6 +142,11 @@ impl Trial {
                     law: *law,
                 })
                 .collect(),
+            motor_torques: system
+                .gimbals()
+                .iter()
+                .map(|(link, _)| (nodes[*link].columns.start, Vector3::zeros()))
+                .collect(),
             own_impulses: vec![0.0; columns],
             own_slopes: vec![0.0; columns],
             residuals: vec![0.0; columns],
@@ -161,6 +169,24 @@ impl Trial {
         }
         for (strike, striker) in self.strikes.iter_mut().zip(system.strikers()) {
             strike.begin(striker, places, fastest, h);
+        }
+    }
+
+    /// Torques of spherical joints' motors, with their axes where a step begins.
+    pub fn begin_motors(&mut self, motors: &[Motors], loads: &Loads) {
+        for (at_begin, motors) in self.motor_torques.iter_mut().zip(motors) {
+            at_begin.1 = motors.torque(&loads.torques);
+        }
+    }
+
+    /// The same as own impulses of a step's end.
+    pub fn end_motors(&mut self, motors: &[Motors], loads: &Loads, h: f64) {
+        for motors in motors {
+            let torque = motors.torque(&loads.torques);
+            let c = motors.column;
+            for (impulse, torque) in self.own_impulses[c..c + 3].iter_mut().zip(torque.iter()) {
+                *impulse = 0.5 * h * torque;
+            }
         }
     }
 
@@ -198,6 +224,11 @@ impl Trial {
         let half = 0.5 * step.h;
         for (impulse, torque) in self.own_impulses.iter_mut().zip(&step.loads.torques) {
             *impulse = half * torque;
+        }
+        for (column, torque) in &self.motor_torques {
+            for i in 0..3 {
+                self.own_impulses[column + i] = half * torque[i];
+            }
         }
         if self.laws.is_empty() {
             return;
