@@ -133,6 +133,11 @@ pub trait Plant {
     /// where nothing limits it but accuracy.
     fn step_limit(&self) -> Option<f64>;
 
+    /// What a step solves for.
+    fn unknowns(&self) -> usize {
+        NV
+    }
+
     /// What the solver of implicit steps has done; `None` for plants without one.
     fn progress(&self) -> Option<&Progress> {
         None

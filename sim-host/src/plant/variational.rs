@@ -257,6 +257,10 @@ impl Plant for Variational {
         None
     }
 
+    fn unknowns(&self) -> usize {
+        self.simulation.unknowns()
+    }
+
     fn progress(&self) -> Option<&Progress> {
         Some(self.simulation.progress())
     }

@@ -5,6 +5,7 @@ mod limits;
 mod loops;
 mod motion;
 mod oracle;
+mod parsimony;
 mod reference;
 mod resume;
 mod solver;

@@ -31,6 +31,8 @@ enum Stage {
     Tests,
     /// The examples in the documentation, on the host.
     DocTests,
+    /// Features that a scene does not have execute no instruction, on the host.
+    Unused,
     /// Core compiles for the target.
     Target,
     /// No panicking path in the tick, nor in the rest of core, on the target.
@@ -43,7 +45,7 @@ enum Stage {
 
 impl Options {
     fn wants(&self, stage: Stage) -> bool {
-        let needs_target = !matches!(stage, Stage::Tests | Stage::DocTests);
+        let needs_target = !matches!(stage, Stage::Tests | Stage::DocTests | Stage::Unused);
         (self.only.is_empty() || self.only.contains(&stage)) && !(needs_target && self.skip_target)
     }
 }
@@ -56,6 +58,9 @@ pub fn run(options: &Options) -> Result<()> {
     }
     if options.wants(Stage::DocTests) {
         record.stage("doc-tests", doc_tests::run);
+    }
+    if options.wants(Stage::Unused) {
+        record.stage("unused", crate::instructions::nothing_unused_runs);
     }
     let on_target = [Stage::Target, Stage::PanicFree, Stage::Firmware, Stage::Budget];
     if on_target.into_iter().any(|stage| options.wants(stage)) {

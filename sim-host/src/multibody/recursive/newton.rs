@@ -86,7 +86,7 @@ impl Simulation {
         }
         self.trial.begin(&self.system, &self.nodes, &self.places, self.at.fastest, h);
         self.trial.begin_motors(&self.motors, &self.loads);
-        if !self.loops.is_empty() {
+        if !self.system.closures().is_empty() {
             self.loops.begin(self.system.closures(), &self.places);
         }
         let mut error = self.evaluate(h);
@@ -155,19 +155,20 @@ impl Simulation {
 
     /// Newton's correction at the trial, with the elimination made anew or with the last one.
     fn correct(&mut self, anew: bool, h: f64) -> Result<(), StepError> {
+        let has_loops = !self.system.closures().is_empty();
         let Self { elimination, nodes, places, trial, at, corrections, loops, .. } = self;
         let momenta = &at.momenta;
         if anew {
             elimination
                 .factor(nodes, places, trial, h)
                 .map_err(|joint| singular(&at.progress, joint))?;
-            if !loops.is_empty() {
+            if has_loops {
                 loops.factor(nodes, elimination);
             }
         }
         let own = |c: usize| momenta[c] + trial.own_impulses[c];
         elimination.solve(nodes, |k| trial.ends[k].own, own, corrections);
-        if !loops.is_empty() {
+        if has_loops {
             loops.correct(elimination, corrections);
         }
         Ok(())
@@ -199,9 +200,10 @@ impl Simulation {
             loads: &self.loads,
             h,
         };
-        self.trial.evaluate(&step, self.loops.impulses(&self.at.multipliers));
+        let has_loops = !self.system.closures().is_empty();
+        self.trial.evaluate(&step, has_loops.then_some((&self.loops, &self.at.multipliers[..])));
         let mut loop_error = 0.0;
-        if !self.loops.is_empty() {
+        if has_loops {
             self.loops.end(self.system.closures(), &self.places, &self.trial);
             loop_error = self.loops.largest_error();
         }

@@ -71,17 +71,18 @@ impl Simulation {
         }
         self.trial.strikes.iter_mut().for_each(Strike::forget);
         self.trial.own_slopes.fill(0.0);
+        let has_loops = !self.system.closures().is_empty();
         let Self { elimination, nodes, places, trial, at, corrections, loops, .. } = self;
         elimination
             .factor(nodes, places, trial, h)
             .map_err(|joint| singular(&at.progress, joint))?;
-        if !loops.is_empty() {
+        if has_loops {
             loops.begin(self.system.closures(), places);
             loops.stand_still();
             loops.factor(nodes, elimination);
         }
         elimination.solve(nodes, |_| Pair::ZERO, |c| impulses[c], corrections);
-        if !loops.is_empty() {
+        if has_loops {
             loops.correct(elimination, corrections);
         }
         for x in corrections.iter_mut() {

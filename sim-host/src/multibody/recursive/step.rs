@@ -17,6 +17,7 @@
 //! the arms of either: then their moment about any point is that of the mean position.
 
 use super::coordinates::Increment;
+use super::loops::Loops;
 use super::motors::Motors;
 use super::node::{Kind, Node, Place};
 use super::stiffness::Pair;
@@ -190,15 +191,15 @@ impl Trial {
         }
     }
 
-    /// Evaluates (1) at the increments, with the impulses of loops on bodies.
-    pub fn evaluate(&mut self, step: &Step, loops: impl Iterator<Item = (usize, Pair)>) {
+    /// Evaluates (1) at the increments, with the loops' multipliers, if there are loops.
+    pub fn evaluate(&mut self, step: &Step, loops: Option<(&Loops, &[f64])>) {
         for k in 0..step.nodes.len() {
             self.ends[k] = self.end(step, k);
         }
         for (strike, striker) in self.strikes.iter_mut().zip(step.system.strikers()) {
             strike.evaluate(striker, step.strikes, step.places, &mut self.ends, step.h);
         }
-        for (body, impulse) in loops {
+        for (body, impulse) in loops.into_iter().flat_map(|(loops, m)| loops.impulses(m)) {
             let end = &mut self.ends[body];
             end.own.subtract(&impulse);
             end.all = end.own;

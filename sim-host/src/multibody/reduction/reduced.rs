@@ -30,6 +30,12 @@ impl Reduced {
         self.roots.iter().map(|(link, frame)| frame.carried(&states[*link], &rates[*link])).unzip()
     }
 
+    /// State of a body of the larger system, if it is still told.
+    pub fn state(&self, link: usize, states: &[BodyState]) -> Option<BodyState> {
+        let (carrier, frame) = self.carrier(link)?;
+        Some(frame.carried(&states[carrier], &[0.0; 7]).0)
+    }
+
     /// States and rates of all bodies of the larger system that are still told; allocates.
     pub fn expanded(
         &self,
