@@ -59,9 +59,8 @@ fn the_lumped_biped_stays_as_close_as_stated() {
                 let [q0, q1, q2, q3] = std::array::from_fn(|i| s.positions[3 + i]);
                 Quaternion::from_array([q0, q1, q2, q3])
             };
-            let of_turn = apart(&full, &lumped, |a, b| {
-                2.0 * turn(a).conjugate().product(turn(b)).v.norm()
-            });
+            let of_turn =
+                apart(&full, &lumped, |a, b| 2.0 * turn(a).conjugate().product(turn(b)).v.norm());
             let angles = |s: &Sample| -> [f64; 12] { std::array::from_fn(|i| s.positions[7 + i]) };
             let of_angles = apart(&full, &lumped, |a, b| largest(&angles(a), &angles(b)));
             let of_torques = apart(&full, &lumped, |a, b| largest(&a.torques, &b.torques));
@@ -116,18 +115,15 @@ fn auto_takes_the_smallest_model_that_the_scene_bears() {
 }
 
 fn stops() -> JointStops {
-    JointStops {
-        low_deg: [-60.0, -90.0, -60.0, -150.0, -60.0, -90.0],
-        high_deg: [60.0, 90.0, 60.0, 0.0, 60.0, 90.0],
-        stiffness: 1000.0,
-    }
+    let wide = [[-170.0, 170.0]; 6];
+    JointStops { left_deg: wide, right_deg: wide, stiffness: 1000.0 }
 }
 
 /// A model that cannot play the scene, or a deviation that is none, is bad input with its place; so is asking the
 /// plant itself.
 #[test]
 fn models_that_cannot_be_are_refused() {
-    let text = surefoot_sim::scene::BUILT_IN[0].text;
+    let text = include_str!("../../../sim-host/scenes/experiment-1.toml");
     for (from, to, words) in [
         ("duration_s = 3.0", "duration_s = 3.0\nmodel = \"tiny\"", ["unknown variant", "lumped"]),
         (

@@ -12,6 +12,7 @@ use surefoot_sim::multibody::{
     Simulation, Site, System, SystemError, lumped, merged, states_of_tree, system_of_tree,
 };
 use surefoot_sim::plant::SMALL_BODIES;
+use surefoot_sim::scene::{AnyScene, parse};
 
 /// Joints of both models with motors, in the order of the hinges.
 const LUMPED_JOINTS: [(usize, usize); 6] = [(1, 3), (2, 1), (3, 2), (4, 3), (5, 1), (6, 2)];
@@ -349,4 +350,57 @@ fn loops_of_merged_links_hold() {
         println!("{seed}: {found:.1e}");
         assert!(found < 1e-9, "{seed}: {found}");
     }
+}
+
+/// A scene of bodies of one's own is played without its fixed joints, and tells of all bodies.
+#[test]
+fn scenes_are_played_without_fixed_joints() {
+    let text = |joint: &str| {
+        format!(
+            r#"
+description = "a pendulum with a weight on its rod"
+duration_s = 1.0
+[integrator]
+name = "variational"
+step_s = 1e-3
+[mechanism]
+kind = "multibody"
+gravity_m_s2 = 9.81
+[[mechanism.bodies]]
+name = "rod"
+mass_kg = 1.0
+inertia_kg_m2 = [0.01, 0.02, 0.03]
+center_m = [0.3, 0.0, 0.0]
+joint = {{ kind = "revolute", point_m = [0.0, 0.0, 0.0], axis = [0.0, 1.0, 0.0] }}
+torque = 0.7
+[[mechanism.bodies]]
+name = "weight"
+inboard = "rod"
+mass_kg = 2.0
+inertia_kg_m2 = [0.004, 0.004, 0.002]
+center_m = [0.6, 0.1, 0.0]
+orientation = [0.8, 0.36, 0.48, 0.0]
+joint = {joint}
+"#
+        )
+    };
+    let play = |joint: &str| {
+        let AnyScene::Mechanism(scene) = parse("test", &text(joint)).expect("a scene") else {
+            unreachable!()
+        };
+        surefoot_sim::mechanism::run(&scene, &mut |_| {}).expect("a run")
+    };
+    let merged = play(r#"{ kind = "fixed" }"#);
+    // A hinge that a stop holds as good as fixed is another way to say it.
+    let hinged = play(
+        r#"{ kind = "revolute", point_m = [0.6, 0.1, 0.0], axis = [0.0, 1.0, 0.0] }
+law = { stiffness = 3e6 }"#,
+    );
+    assert_eq!((merged.unknowns, hinged.unknowns), (1, 2));
+    let (a, b) = (merged.samples.last().expect("samples"), hinged.samples.last().expect("samples"));
+    assert_eq!(a.configuration.len(), 14);
+    for (x, y) in a.configuration.iter().zip(&b.configuration) {
+        assert!((x - y).abs() < 1e-4, "{:?} {:?}", a.configuration, b.configuration);
+    }
+    assert!(merged.constraint_max < 1e-13, "{}", merged.constraint_max);
 }

@@ -14,9 +14,10 @@ const FEATURES: [(&str, &[&str]); 5] = [
 ];
 
 /// Steps that are counted, and the features that they have.
-const WORKLOADS: [(&str, &[&str]); 5] = [
+const WORKLOADS: [(&str, &[&str]); 6] = [
+    ("multibody-step/free-body/f64", &[]),
     ("multibody-step/biped-flight/f64", &[]),
-    ("multibody-step/rods-25/f64", &[]),
+    ("multibody-step/chain-25/f64", &[]),
     ("multibody-step/biped-feet/f64", &["contact", "springs, dampers, stops"]),
     ("plant-step/floor-lumped/f64", &["contact", "motors of spherical joints"]),
     ("plant-step/welded-lumped/f64", &["loops", "motors of spherical joints"]),
