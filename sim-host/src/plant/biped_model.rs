@@ -10,9 +10,9 @@ use surefoot::model::robots::biped::{FEET, TREE};
 /// Bodies of §4.1.
 const BODIES: usize = 13;
 
-/// Links of the small bodies inside hips and ankles, and the neighbour that each turns most like: all but the
-/// inner hip's turn about the lateral axis, in which a leg moves most, with the body further out or in that is
-/// named here. Their centres of mass lie where the joint's axes meet.
+/// Links of the small bodies inside hips and ankles, and the neighbour that each is given to. A leg moves most about
+/// the lateral axis: about that a hip's inner body turns with the central body, its outer one with the thigh, and
+/// an ankle's with the shank. Their centres of mass lie where the joint's axes meet.
 pub const SMALL_BODIES: [(usize, Side); 6] = [
     (1, Side::Inboard),
     (2, Side::Outboard),

@@ -1,4 +1,4 @@
-//! The biped on the symplectic simulator of chapter 5: the default plant.
+//! The biped on the symplectic simulator of chapter 5, with all its bodies or lumped: the default plant.
 
 use super::biped_model::{BipedModel, BipedSystem};
 use super::joint_stops::with_stops;

@@ -54,11 +54,14 @@ impl Counts {
     /// From a file of callgrind's; none if it has no total.
     ///
     /// A line `fl=`, `fi=` or `fe=` names the file of the costs that follow, by number and at first by name as
-    /// well; the cost after a line `calls=` is that of the function called, which has its own lines.
+    /// well; the cost after a line `calls=` is that of the function called, which has its own lines. A cost has
+    /// the number of its source line before it, or what that differs by from the last one. Line 0 is a
+    /// compiler's for instructions that belong to no line, as where branches were joined: they are in no file.
     fn read(text: &str) -> Option<Self> {
         let mut names: BTreeMap<&str, &str> = BTreeMap::new();
         let mut counts = Self::default();
         let mut here = "";
+        let mut at: i64 = 0;
         let mut is_of_callee = false;
         for line in text.lines() {
             if let Some(total) = line.strip_prefix("totals: ") {
@@ -75,11 +78,12 @@ impl Counts {
                 if !key.starts_with('c') {
                     here = names.get(number).copied().unwrap_or(file);
                 }
-            } else if line.starts_with(|c: char| c.is_ascii_digit() || "+-*".contains(c)) {
-                let cost = line.split_ascii_whitespace().nth(1).and_then(|cost| cost.parse().ok());
-                if !std::mem::take(&mut is_of_callee)
-                    && let Some(cost) = cost
-                {
+            } else if let Some((position, cost)) = line.split_once(' ')
+                && let Ok(cost) = cost.trim().parse::<u64>()
+                && let Some(position) = moved(at, position)
+            {
+                at = position;
+                if !std::mem::take(&mut is_of_callee) && at != 0 {
                     let sum: &mut u64 = counts.by_file.entry(here.to_owned()).or_default();
                     *sum += cost;
                 }
@@ -89,22 +93,32 @@ impl Counts {
     }
 }
 
+/// A source line: its number, or `+n`, `-n`, `*` from the last one; none where it is neither.
+fn moved(last: i64, position: &str) -> Option<i64> {
+    match position.as_bytes().first()? {
+        b'*' => Some(last),
+        // `parse` takes either sign.
+        b'+' | b'-' => Some(last + position.parse::<i64>().ok()?),
+        _ => position.parse().ok(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Counts;
 
     const FILE: &str = "# callgrind format\nevents: Ir\n\nfl=(1) /src/step.rs\nfn=(1) step\n10 100\n\
-        +2 30\nfi=(2) /src/contact/point.rs\n7 5\nfe=(1)\n* 1\ncfi=(3) /src/loops.rs\ncfn=(2) solve\n\
-        calls=1 3\n12 900\n13 2\n\nfl=(3)\nfn=(2)\n3 900\n\ntotals: 1038\n";
+        +2 30\nfi=(2) /src/contact/point.rs\n7 5\n-7 4\nfe=(1)\n12 1\ncfi=(3) /src/loops.rs\ncfn=(2) solve\n\
+        calls=1 3\n* 900\n+1 2\n\nfl=(3)\nfn=(2)\n3 900\n\ntotals: 1042\n";
 
     #[test]
     fn costs_belong_to_the_file_of_their_line() {
         let counts = Counts::read(FILE).expect("a total");
-        assert_eq!(counts.total, 1038);
+        assert_eq!(counts.total, 1042);
         assert_eq!(counts.within("step.rs"), 133);
         assert_eq!(counts.within("contact/"), 5);
         assert_eq!(counts.within("loops.rs"), 900);
-        assert_eq!(counts.by_file.values().sum::<u64>(), counts.total);
+        assert_eq!(counts.by_file.values().sum::<u64>() + 4, counts.total, "but for line 0");
         assert_eq!(Counts::read("summary: 7\n"), None);
     }
 }

@@ -55,7 +55,8 @@ struct Row {
 /// Builds the program, counts, and prints.
 pub fn run(options: &Options) -> Result<()> {
     if options.unused {
-        return nothing_unused_runs();
+        println!("{}", nothing_unused_runs()?);
+        return Ok(());
     }
     let tool = provide_valgrind()?;
     let program = build()?;

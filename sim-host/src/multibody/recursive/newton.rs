@@ -258,9 +258,11 @@ impl Simulation {
             self.trial.ends[k].all = self.trial.end_momentum(&step, k, &self.places[k]);
         }
         let Trial { strikes, ends, .. } = &mut self.trial;
-        for (strike, force) in strikes.iter().zip(&mut self.at.strike_forces) {
-            strike.add_end_impulses(&self.places, ends, h);
-            *force = strike.remember(&mut self.at.strikes).into();
+        if !strikes.is_empty() {
+            for (strike, force) in strikes.iter().zip(&mut self.at.strike_forces) {
+                strike.add_end_impulses(&self.places, ends, h);
+                *force = strike.remember(&mut self.at.strikes).into();
+            }
         }
         let own = std::mem::take(&mut self.trial.own_impulses);
         self.gather_momenta(|c| own[c]);

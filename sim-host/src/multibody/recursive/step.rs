@@ -168,8 +168,11 @@ impl Trial {
                 touch.begin = place.rotation * touch.arm;
             }
         }
-        for (strike, striker) in self.strikes.iter_mut().zip(system.strikers()) {
-            strike.begin(striker, places, fastest, h);
+        // What a loop over no strikers would prepare is not computed either.
+        if !self.strikes.is_empty() {
+            for (strike, striker) in self.strikes.iter_mut().zip(system.strikers()) {
+                strike.begin(striker, places, fastest, h);
+            }
         }
     }
 
@@ -196,8 +199,10 @@ impl Trial {
         for k in 0..step.nodes.len() {
             self.ends[k] = self.end(step, k);
         }
-        for (strike, striker) in self.strikes.iter_mut().zip(step.system.strikers()) {
-            strike.evaluate(striker, step.strikes, step.places, &mut self.ends, step.h);
+        if !self.strikes.is_empty() {
+            for (strike, striker) in self.strikes.iter_mut().zip(step.system.strikers()) {
+                strike.evaluate(striker, step.strikes, step.places, &mut self.ends, step.h);
+            }
         }
         for (body, impulse) in loops.into_iter().flat_map(|(loops, m)| loops.impulses(m)) {
             let end = &mut self.ends[body];
