@@ -20,6 +20,7 @@ mod robot;
 mod striker;
 mod system;
 mod system_error;
+mod system_measures;
 
 pub use body::{Body, BodyState};
 pub use chain::{Chain, ChainJoint};

@@ -1,7 +1,8 @@
 //! What a scene must fulfil before it runs.
 
 use super::check_hardware::check_hardware;
-use super::{Feet, ModelChoice, Scene, SceneError, Workspace};
+use super::rung::check_model;
+use super::{Feet, Scene, SceneError, Workspace};
 use crate::integrators::Method;
 use nalgebra::Vector3;
 use surefoot::balance::{LeggedRobot, RobotState, central_body, leg_kinematics};
@@ -18,7 +19,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     thrown_block(scene)?;
     timing(scene)?;
     check_hardware(scene)?;
-    model(scene)?;
+    check_model(scene)?;
     reach(scene)
 }
 
@@ -180,18 +181,6 @@ fn timing(scene: &Scene) -> Result<(), SceneError> {
         let expected =
             format!("a whole number of steps of {step} s between ticks (it is {steps:.3})");
         return Err(wrong(scene, "controller.rate_hz", rate, expected));
-    }
-    Ok(())
-}
-
-/// A model that can play the scene.
-fn model(scene: &Scene) -> Result<(), SceneError> {
-    let deviation = scene.matters.deviation_m;
-    if !(deviation.is_finite() && deviation >= 0.0) {
-        return Err(wrong(scene, "matters.deviation_m", deviation, "a length of zero or more"));
-    }
-    if let (ModelChoice::Lumped, Some(need)) = (scene.model, scene.needs_hinges()) {
-        return Err(wrong(scene, "model", scene.model, format!("full or auto: {need}")));
     }
     Ok(())
 }

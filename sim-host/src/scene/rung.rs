@@ -1,6 +1,7 @@
 //! How much of the robot is modelled: no more than what matters in the scene.
 
-use super::Scene;
+use super::check::wrong;
+use super::{Scene, SceneError};
 use crate::integrators::Method;
 use crate::plant::BipedModel;
 use serde::{Deserialize, Serialize};
@@ -91,7 +92,7 @@ impl Scene {
     }
 
     /// What only the model with all hinges can do, if the scene asks for it.
-    pub(super) fn needs_hinges(&self) -> Option<&'static str> {
+    fn needs_hinges(&self) -> Option<&'static str> {
         let hips = [self.initial.left_leg_deg[1], self.initial.right_leg_deg[1]];
         if self.integrator.name != Method::Variational {
             Some("the baseline method has no other")
@@ -103,4 +104,16 @@ impl Scene {
             None
         }
     }
+}
+
+/// A model that can play the scene.
+pub(super) fn check_model(scene: &Scene) -> Result<(), SceneError> {
+    let deviation = scene.matters.deviation_m;
+    if !(deviation.is_finite() && deviation >= 0.0) {
+        return Err(wrong(scene, "matters.deviation_m", deviation, "a length of zero or more"));
+    }
+    if let (ModelChoice::Lumped, Some(need)) = (scene.model, scene.needs_hinges()) {
+        return Err(wrong(scene, "model", scene.model, format!("full or auto: {need}")));
+    }
+    Ok(())
 }

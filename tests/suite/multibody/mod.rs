@@ -3,9 +3,10 @@
 mod forces;
 mod limits;
 mod loops;
+mod lumped;
+mod merged;
 mod motion;
 mod oracle;
-mod parsimony;
 mod reference;
 mod resume;
 mod solver;

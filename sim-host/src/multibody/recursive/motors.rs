@@ -5,7 +5,9 @@
 
 use super::super::gimbal::{Gimbal, GimbalPose};
 use super::super::system::System;
-use super::node::{Node, Place};
+use super::node::{Kind, Node, Place};
+use super::simulation::Simulation;
+use super::step::{Loads, Trial};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
@@ -89,5 +91,54 @@ impl Turned {
     /// Rates from the mean ones of the last two steps, carried on to now.
     pub fn observed(&self, h: f64) -> [f64; 3] {
         std::array::from_fn(|i| (1.5 * self.last[i] - 0.5 * self.before[i]) / h)
+    }
+}
+
+impl Trial {
+    /// Torques of spherical joints' motors, with their axes where a step begins.
+    pub fn begin_motors(&mut self, motors: &[Motors], loads: &Loads) {
+        for (at_begin, motors) in self.motor_torques.iter_mut().zip(motors) {
+            at_begin.1 = motors.torque(&loads.torques);
+        }
+    }
+
+    /// The same as own impulses of a step's end.
+    pub fn end_motors(&mut self, motors: &[Motors], loads: &Loads, h: f64) {
+        for motors in motors {
+            let torque = motors.torque(&loads.torques);
+            let c = motors.column;
+            for (impulse, torque) in self.own_impulses[c..c + 3].iter_mut().zip(torque.iter()) {
+                *impulse = 0.5 * h * torque;
+            }
+        }
+    }
+}
+
+impl Simulation {
+    /// Angles of a joint's motors: two of a universal joint, three of a spherical one with motors, one as for
+    /// [`Self::angle`]; then zeros.
+    pub fn angles(&self, link: usize) -> [f64; 3] {
+        match self.motors.iter().find(|motors| motors.link == link) {
+            Some(motors) => motors.angles(),
+            None => {
+                let [first, second] = self.at.coordinates[link].angles;
+                [first, second, 0.0]
+            }
+        }
+    }
+
+    /// Holds torques (N·m; forces, N, of a prismatic joint) in as many motors as a joint has, in the order of
+    /// [`Self::angles`], until they are set again. A spherical joint without motors and a floating one take none.
+    pub fn set_torques(&mut self, link: usize, torques: &[f64]) {
+        let node = &self.nodes[link];
+        let has_motors = match node.kind {
+            Kind::Spherical => self.motors.iter().any(|motors| motors.link == link),
+            Kind::Floating => false,
+            _ => true,
+        };
+        if has_motors {
+            let held = &mut self.loads.torques[node.columns.clone()];
+            held.iter_mut().zip(torques).for_each(|(held, torque)| *held = *torque);
+        }
     }
 }

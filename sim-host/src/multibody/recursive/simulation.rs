@@ -165,38 +165,11 @@ impl Simulation {
         self.at.coordinates[link].angles[0]
     }
 
-    /// Angles of a joint's motors: two of a universal joint, three of a spherical one with motors, one as for
-    /// [`Self::angle`]; then zeros.
-    pub fn angles(&self, link: usize) -> [f64; 3] {
-        match self.motors.iter().find(|motors| motors.link == link) {
-            Some(motors) => motors.angles(),
-            None => {
-                let [first, second] = self.at.coordinates[link].angles;
-                [first, second, 0.0]
-            }
-        }
-    }
-
     /// Holds a torque (N·m) in a revolute joint, or a force (N) in a prismatic one, until it is set again.
     /// Other joints have no motor.
     pub fn set_torque(&mut self, link: usize, torque: f64) {
         if matches!(self.nodes[link].kind, Kind::Revolute | Kind::Prismatic) {
             self.loads.torques[self.nodes[link].columns.start] = torque;
-        }
-    }
-
-    /// Holds torques (N·m; forces, N, of a prismatic joint) in as many motors as a joint has, in the order of
-    /// [`Self::angles`], until they are set again. A spherical joint without motors and a floating one take none.
-    pub fn set_torques(&mut self, link: usize, torques: &[f64]) {
-        let node = &self.nodes[link];
-        let has_motors = match node.kind {
-            Kind::Spherical => self.motors.iter().any(|motors| motors.link == link),
-            Kind::Floating => false,
-            _ => true,
-        };
-        if has_motors {
-            let held = &mut self.loads.torques[node.columns.clone()];
-            held.iter_mut().zip(torques).for_each(|(held, torque)| *held = *torque);
         }
     }
 

@@ -18,7 +18,6 @@
 
 use super::coordinates::Increment;
 use super::loops::Loops;
-use super::motors::Motors;
 use super::node::{Kind, Node, Place};
 use super::stiffness::Pair;
 use super::strike::Strike;
@@ -172,24 +171,6 @@ impl Trial {
         if !self.strikes.is_empty() {
             for (strike, striker) in self.strikes.iter_mut().zip(system.strikers()) {
                 strike.begin(striker, places, fastest, h);
-            }
-        }
-    }
-
-    /// Torques of spherical joints' motors, with their axes where a step begins.
-    pub fn begin_motors(&mut self, motors: &[Motors], loads: &Loads) {
-        for (at_begin, motors) in self.motor_torques.iter_mut().zip(motors) {
-            at_begin.1 = motors.torque(&loads.torques);
-        }
-    }
-
-    /// The same as own impulses of a step's end.
-    pub fn end_motors(&mut self, motors: &[Motors], loads: &Loads, h: f64) {
-        for motors in motors {
-            let torque = motors.torque(&loads.torques);
-            let c = motors.column;
-            for (impulse, torque) in self.own_impulses[c..c + 3].iter_mut().zip(torque.iter()) {
-                *impulse = 0.5 * h * torque;
             }
         }
     }
