@@ -13,9 +13,14 @@ use surefoot::dynamics::{
 use surefoot::model::Tree;
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
-use surefoot_sim::integrators::{Method, start_natural};
-use surefoot_sim::mechanics::systems::DoubleSphericalPendulum;
-use surefoot_sim::multibody::ConstrainedSimulation;
+use surefoot_sim::closed_loop::{Scalar, controller, plant, run_plant};
+use surefoot_sim::integrators::{Method, start_free_body, start_natural};
+use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
+use surefoot_sim::multibody::{
+    Body, ConstrainedSimulation, Joint, JointConstraint, Link, Simulation, System,
+};
+use surefoot_sim::plant::Plant;
+use surefoot_sim::scene::{ModelChoice, load};
 
 /// One call of an algorithm, joint poses included.
 pub struct Workload {
@@ -176,6 +181,72 @@ fn on_multibody_biped() -> [Workload; 2] {
     })
 }
 
+/// Steps of a single free body that turns: as a system of one link, and by chapter 2's method of four coordinates
+/// and one constraint, which knows no position.
+fn on_free_body() -> [Workload; 2] {
+    let inertia = [0.2, 0.3, 0.45];
+    let joint = Joint {
+        outboard: [0.0; 3],
+        inboard: [0.0; 3],
+        home: [1.0, 0.0, 0.0, 0.0],
+        constraint: JointConstraint::Floating,
+    };
+    let body = Body { mass: 2.0, inertia };
+    let system = System::new(vec![Link { inboard: None, joint, body }], 9.81).expect("a system");
+    let q = [1.0, 0.0, 0.0, 0.0];
+    let q_dot = FreeRigidBody::rate(&q, &[0.5, -2.0, 1.0]);
+    let state = [0.0, 0.0, 3.0, q[0], q[1], q[2], q[3]];
+    let rate = [0.3, 0.1, 1.0, q_dot[0], q_dot[1], q_dot[2], q_dot[3]];
+    let one = Simulation::new(system, 1e-3, &[state], &[rate]).expect("a start");
+    let turning = FreeRigidBody { inertia };
+    let turning = start_free_body(Method::Variational, turning, 1e-3, q, q_dot).expect("a start");
+    let (one, turning) = (RefCell::new(one), RefCell::new(turning));
+    [
+        Workload {
+            name: "multibody-step/free-body/f64".to_owned(),
+            call: Box::new(move || one.borrow_mut().step().expect("a step")),
+        },
+        Workload {
+            name: "variational-step/free-body/f64".to_owned(),
+            call: Box::new(move || turning.borrow_mut().step().expect("a step")),
+        },
+    ]
+}
+
+/// Steps of the standing biped under the torques that hold it, on the floor and with welded feet, with all bodies
+/// and lumped. A plant stands when it is called first.
+fn on_plants() -> impl Iterator<Item = Workload> {
+    let feet = [("floor", "experiment-1"), ("welded", "experiment-1-welded")];
+    let models = [("full", ModelChoice::Full), ("lumped", ModelChoice::Lumped)];
+    feet.into_iter().flat_map(move |(on, scene)| {
+        models.map(|(name, model)| {
+            let standing = RefCell::new(None);
+            Workload {
+                name: format!("plant-step/{on}-{name}/f64"),
+                call: Box::new(move || {
+                    let mut standing = standing.borrow_mut();
+                    let (plant, torques) = standing.get_or_insert_with(|| stand(scene, model));
+                    plant.step(STANDING_STEP, torques, None).expect("a step");
+                }),
+            }
+        })
+    })
+}
+
+/// Step of the scenes that are stood in, s.
+const STANDING_STEP: f64 = 2e-3;
+
+/// After a second of Experiment 1, with the torques then.
+fn stand(scene: &str, model: ModelChoice) -> (Box<dyn Plant>, [f64; 12]) {
+    let mut scene = load(scene).expect("a built-in scene");
+    (scene.duration_s, scene.model) = (1.0, model);
+    scene.integrator.step_s = STANDING_STEP;
+    let mut plant = plant(&scene).expect("a plant");
+    let mut controller = controller(&scene, Scalar::F64);
+    let run = run_plant(&scene, plant.as_mut(), controller.as_mut(), None, &mut |_| {});
+    (plant, run.samples.last().expect("samples").torques)
+}
+
 /// Steps of both methods of table 2.2 at its middle step.
 fn on_double_pendulum() -> [Workload; 2] {
     let pendulum = DoubleSphericalPendulum::PRINTED;
@@ -202,6 +273,8 @@ pub fn workloads() -> Vec<Workload> {
     all.extend(on_chain::<200>());
     all.extend([25, 100, 400, 1000].into_iter().flat_map(on_rods));
     all.extend(on_multibody_biped());
+    all.extend(on_free_body());
+    all.extend(on_plants());
     all.extend(on_double_pendulum());
     all
 }

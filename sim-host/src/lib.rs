@@ -7,7 +7,7 @@
 //! ```
 //! Beside it stands chapter 2: [`mechanics`] (Lagrangians, discrete and not), [`newton`] (the one
 //! nonlinear solver), [`integrators`], and [`stability`] (how long their steps may be); of chapter 5
-//! [`multibody`]. Scenes of either run by [`mechanism`].
+//! [`multibody`]. Scenes of either run by [`mechanism`]; what models of a motion cost is [`parsimony`]'s.
 //!
 //! All of it in f64, but for a controller in f32. A plant allocates when it is built, never in a
 //! step.
@@ -22,6 +22,7 @@ pub mod mechanics;
 pub mod mechanism;
 pub mod multibody;
 pub mod newton;
+pub mod parsimony;
 pub mod picture;
 pub mod plant;
 pub mod record;

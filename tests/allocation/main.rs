@@ -54,7 +54,11 @@ fn no_step_allocates() {
     for name in ["experiment-1", "experiment-1-welded", "experiment-2", "experiment-2-welded"] {
         let AnyScene::Robot(scene) = open(name).expect("built in") else { unreachable!() };
         let start = scene.initial.state();
-        let additions = Additions { stops: None, block: scene.block.as_ref().map(Block::thrown) };
+        let additions = Additions {
+            model: scene.rung().model,
+            block: scene.block.as_ref().map(Block::thrown),
+            ..Additions::default()
+        };
         let noisy = Sensing { encoder_counts: 4096, gyroscope_noise: 1e-4, ..Sensing::default() };
         let mut sensors = Sensors::new(&noisy, 1e-3);
         let weak =

@@ -5,6 +5,7 @@
 
 mod chart;
 mod controller;
+mod count_steps;
 mod list;
 mod report;
 mod reproduce;
@@ -30,6 +31,9 @@ enum Command {
     Reproduce(reproduce::Options),
     /// Chart what methods can do
     Chart(chart::Options),
+    /// What `chart parsimony` runs under callgrind
+    #[command(hide = true)]
+    CountSteps(count_steps::Options),
     /// List scenes, integrators and robots
     List(list::Options),
 }
@@ -47,6 +51,7 @@ pub fn main() -> ExitCode {
         Some(Command::Run(options)) => run::run(&options),
         Some(Command::Reproduce(options)) => reproduce::reproduce(&options),
         Some(Command::Chart(options)) => chart::chart(&options),
+        Some(Command::CountSteps(options)) => count_steps::count_steps(&options),
         Some(Command::List(options)) => list::list(&options),
     }
 }

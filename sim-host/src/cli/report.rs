@@ -90,6 +90,9 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
         run.wall.as_secs_f64(),
         reading(scene.controller.torques_from),
     )?;
+    let rung = scene.rung();
+    let bodies = rung.model.bodies();
+    writeln!(out, "  model: {}, {bodies} bodies; {}", rung.model, rung.reason)?;
     if let Some(costs) = &run.costs {
         let Costs { unit, per_second, min, mean, max } = *costs;
         write!(out, "  controller on the target: {min} to {max} {unit} a tick")?;
@@ -185,6 +188,7 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "controller": controller,
         "target": run.costs,
         "torques_from": scene.controller.torques_from,
+        "model": scene.rung(),
         "steps": run.steps,
         "outcome": run.outcome,
         "failure": run.failure,

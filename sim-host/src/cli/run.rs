@@ -10,7 +10,7 @@ use crate::integrators::Method;
 use crate::picture::Shown;
 use crate::record::{SavedRun, write_csv, write_mcap};
 use crate::report::page;
-use crate::scene::{AnyScene, Feet, Scene, TorquesFrom, open};
+use crate::scene::{AnyScene, Feet, ModelChoice, Scene, TorquesFrom, open};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
@@ -39,6 +39,9 @@ pub struct Options {
     /// When torques set in, instead of the scene's
     #[arg(long, value_enum)]
     torques_from: Option<TorquesFrom>,
+    /// How much of the robot is modelled, instead of what the scene says
+    #[arg(long, value_enum)]
+    model: Option<ModelChoice>,
     /// Where the record and the charts go (default: out/SCENE)
     #[arg(long)]
     out: Option<PathBuf>,
@@ -77,7 +80,7 @@ impl Options {
 
     /// Whether something was said that a scene without a controller has no use for.
     pub(super) fn is_about_a_controller(&self) -> bool {
-        self.torques_from.is_some() || self.controller.was_chosen()
+        self.torques_from.is_some() || self.model.is_some() || self.controller.was_chosen()
     }
 }
 
@@ -149,6 +152,9 @@ fn with_options(mut scene: Scene, options: &Options) -> Result<Scene, String> {
     }
     if let Some(from) = options.torques_from {
         scene.controller.torques_from = from;
+    }
+    if let Some(model) = options.model {
+        scene.model = model;
     }
     scene.check().map_err(|error| error.to_string())?;
     Ok(scene)

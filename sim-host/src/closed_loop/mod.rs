@@ -17,5 +17,6 @@ pub use controller::{
     Commanded, ControlFailure, Controller, Costs, HostController, Scalar, controller, measured,
 };
 pub use outcome::{Failure, Outcome, Peak, Peaks};
-pub use run::{Run, run, run_from};
+pub use plant::plant;
+pub use run::{Run, run, run_from, run_plant};
 pub use sensing::Sensors;

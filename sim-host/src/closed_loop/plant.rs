@@ -4,13 +4,17 @@ use crate::integrators::Method;
 use crate::plant::{Additions, OnFloor, Plant, StepFailure, Struck, Variational, Welded};
 use crate::scene::{Block, Feet, Scene};
 
-/// No contact code where feet are welded, no block and no stops where the scene has none.
-pub(super) fn plant(scene: &Scene) -> Result<Box<dyn Plant>, StepFailure> {
+/// No contact code where feet are welded, no block and no stops where the scene has none, no more bodies than
+/// matter.
+///
+/// # Errors
+/// A [`StepFailure`] for a start that is no configuration, or what the model cannot do.
+pub fn plant(scene: &Scene) -> Result<Box<dyn Plant>, StepFailure> {
     let (start, step) = (scene.initial.state(), scene.integrator.step_s);
     let stops = scene.acting.joint_stops.map(|stops| stops.in_radians());
     let block = scene.block.as_ref().map(Block::thrown);
     if scene.integrator.name == Method::Variational {
-        let additions = Additions { stops, block };
+        let additions = Additions { model: scene.rung().model, stops, block };
         return Ok(Box::new(match &scene.feet {
             Feet::Floor { outline, floor } => {
                 Variational::on_floor(&start, step, *floor, &outline.sole(), &additions)?

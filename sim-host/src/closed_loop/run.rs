@@ -56,30 +56,53 @@ pub fn run_from(
     from: Option<&SavedRun>,
     progress: &mut dyn FnMut(f64),
 ) -> Run {
+    match plant(scene) {
+        Ok(mut plant) => run_plant(scene, plant.as_mut(), controller, from, progress),
+        Err(failure) => ended(Run::new(), Err(step_failure(0.0, failure))),
+    }
+}
+
+/// The same with a plant of one's own, where its motion begins.
+pub fn run_plant(
+    scene: &Scene,
+    plant: &mut dyn Plant,
+    controller: &mut dyn Controller,
+    from: Option<&SavedRun>,
+    progress: &mut dyn FnMut(f64),
+) -> Run {
     let started = Instant::now();
-    let mut run = Run {
-        outcome: Outcome::Completed,
-        failure: None,
-        samples: Vec::new(),
-        events: Vec::new(),
-        steps: 0,
-        constraint_max: 0.0,
-        wall: Duration::ZERO,
-        progress: None,
-        saved: None,
-        costs: None,
-        cut_torques: CutTorques::default(),
-    };
-    let result = match plant(scene) {
-        Ok(mut plant) => {
-            let result = advance(scene, plant.as_mut(), controller, (from, progress), &mut run)
-                .map_err(|failure| with_step_limit(failure, scene, plant.as_ref()))
-                .map_err(|failure| with_hardware(failure, scene));
-            run.progress = plant.progress().copied();
-            result
+    let mut run = Run::new();
+    let result = advance(scene, plant, controller, (from, progress), &mut run)
+        .map_err(|failure| with_step_limit(failure, scene, plant))
+        .map_err(|failure| with_hardware(failure, scene));
+    run.progress = plant.progress().copied();
+    run = ended(run, result);
+    run.wall = started.elapsed();
+    run.costs = controller.costs();
+    run
+}
+
+impl Run {
+    /// Before it has begun.
+    fn new() -> Self {
+        Self {
+            outcome: Outcome::Completed,
+            failure: None,
+            samples: Vec::new(),
+            events: Vec::new(),
+            steps: 0,
+            constraint_max: 0.0,
+            wall: Duration::ZERO,
+            progress: None,
+            saved: None,
+            costs: None,
+            cut_torques: CutTorques::default(),
         }
-        Err(failure) => Err(step_failure(0.0, failure)),
-    };
+    }
+}
+
+/// With the way that it ended.
+fn ended(mut run: Run, result: Result<(), Failure>) -> Run {
     if let Err(failure) = result {
         run.outcome = if failure.kind == "fell" { Outcome::Fell } else { Outcome::Failed };
         run.failure = Some(failure);
@@ -87,8 +110,6 @@ pub fn run_from(
         let arrived = last.error_distance() < 1e-3 && last.error_angle() < 0.1_f64.to_radians();
         run.outcome = if arrived { Outcome::Balanced } else { Outcome::Completed };
     }
-    run.wall = started.elapsed();
-    run.costs = controller.costs();
     run
 }
 

@@ -32,6 +32,12 @@ pub enum StepFailure {
         /// How many.
         splits: u64,
     },
+    /// A gimbal's motors have come within 5° of lock: their torques would grow beyond bounds.
+    #[error("the gimbal of joint {joint} is within 5 degrees of lock")]
+    GimbalLock {
+        /// Its link.
+        joint: usize,
+    },
     /// The adaptive method's own steps have become too short or too many.
     #[error("the adaptive method cannot meet its tolerance")]
     Adaptive,

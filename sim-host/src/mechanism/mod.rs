@@ -1,5 +1,6 @@
 //! Runs of mechanisms that nobody controls (chapter 2), under any method.
 
+mod merged;
 mod moving;
 mod run;
 

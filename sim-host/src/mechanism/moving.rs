@@ -1,5 +1,6 @@
 //! A mechanism on its way, whatever its size.
 
+use super::merged::without_fixed_joints;
 use crate::contact::ContactPoint;
 use crate::integrators::{Motion, Progress, StartError, StepError, start_free_body, start_natural};
 use crate::mechanics::systems::{FreeRigidBody, Pendulum, PolarAngles};
@@ -184,7 +185,10 @@ pub fn start(scene: &MechanismScene) -> Result<Box<dyn Moving>, StartFailure> {
                 forecast_s: forecast(method, &rates),
             }))
         }
-        Mechanism::Multibody(bodies) => Ok(Box::new(bodies.start(scene.integrator.step_s)?)),
+        Mechanism::Multibody(bodies) => {
+            let torques: Vec<f64> = bodies.bodies.iter().map(|body| body.torque).collect();
+            Ok(without_fixed_joints(bodies.start(scene.integrator.step_s)?, &torques)?)
+        }
         Mechanism::Biped(flight) => Ok(Box::new(flight.start(scene.integrator.step_s)?)),
         Mechanism::Chain {
             links,

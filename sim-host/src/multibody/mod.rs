@@ -1,7 +1,8 @@
 //! The symplectic simulator of multibody systems (§5.4).
 //!
 //! ```text
-//! Body, Joint ─► System ─┬► Simulation: joint coordinates, what every scene with bodies runs on
+//! Body, Joint ─► System ─┬► merged, lumped ─► Reduced: a smaller system, and how its bodies carry the others
+//!                        ├► Simulation: joint coordinates, what every scene with bodies runs on
 //!                        └► ConstrainedSimulation: as the text has it (5.11), (5.13), Alg. 5.1; the oracle
 //! ```
 #![doc = include_str!("../../../docs/your-own-bodies.md")]
@@ -10,21 +11,26 @@ mod body;
 mod chain;
 mod closure;
 mod constrained;
+mod gimbal;
 mod joint;
 mod joint_law;
 mod recursive;
+mod reduction;
 mod robot;
 mod striker;
 mod system;
 mod system_error;
+mod system_measures;
 
 pub use body::{Body, BodyState};
 pub use chain::{Chain, ChainJoint};
 pub use closure::{Closing, Closure, ConstraintFunction};
 pub use constrained::{ConstrainedSimulation, Correction, Equations, SingularJoint, TreeEquations};
+pub use gimbal::Gimbal;
 pub use joint::{Joint, JointConstraint, MOST_CONSTRAINTS, Rows};
 pub use joint_law::{JointLaw, Stops};
 pub use recursive::{Checkpoint, Simulation, StepForecast};
+pub use reduction::{Frame, Reduced, Side, lumped, merged};
 pub use robot::{states_of_tree, system_of_tree};
 pub use striker::{BOX_POINTS, CORNERS, Striker};
 pub use system::{Link, Site, System};

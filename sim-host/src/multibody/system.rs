@@ -2,6 +2,7 @@
 
 use super::body::{Body, BodyState};
 use super::closure::Closure;
+use super::gimbal::Gimbal;
 use super::joint::{Joint, JointConstraint};
 use super::joint_law::JointLaw;
 use super::striker::Striker;
@@ -35,6 +36,7 @@ pub struct System {
     /// m/s², against z.
     gravity: f64,
     laws: Vec<(usize, JointLaw)>,
+    gimbals: Vec<(usize, Gimbal)>,
     ground: Option<(Floor, Switching)>,
     sites: Vec<Site>,
     closures: Vec<Closure>,
@@ -63,6 +65,7 @@ impl System {
             links,
             gravity,
             laws: Vec::new(),
+            gimbals: Vec::new(),
             ground: None,
             sites: Vec::new(),
             closures: Vec::new(),
@@ -76,9 +79,9 @@ impl System {
     /// As for [`Self::new`].
     pub fn with_link(mut self, link: Link) -> Result<Self, SystemError> {
         self.links.push(link);
-        let System { links, gravity, laws, ground, sites, closures, strikers } = self;
+        let System { links, gravity, laws, gimbals, ground, sites, closures, strikers } = self;
         let checked = Self::new(links, gravity)?;
-        Ok(Self { laws, ground, sites, closures, strikers, ..checked })
+        Ok(Self { laws, gimbals, ground, sites, closures, strikers, ..checked })
     }
 
     /// With a spring, damping or stops in the joint of a link.
@@ -97,6 +100,20 @@ impl System {
             return Err(SystemError::Law { link });
         }
         self.laws.push((link, law));
+        Ok(self)
+    }
+
+    /// With motors in the spherical joint of a link.
+    ///
+    /// # Errors
+    /// [`SystemError::Gimbal`].
+    pub fn with_gimbal(mut self, link: usize, gimbal: Gimbal) -> Result<Self, SystemError> {
+        let is_ball =
+            self.links.get(link).is_some_and(|l| l.joint.constraint == JointConstraint::Spherical);
+        if !is_ball || self.gimbals.iter().any(|(other, _)| *other == link) {
+            return Err(SystemError::Gimbal { link });
+        }
+        self.gimbals.push((link, gimbal));
         Ok(self)
     }
 
@@ -181,6 +198,11 @@ impl System {
         &self.laws
     }
 
+    /// Motors of spherical joints, by link.
+    pub fn gimbals(&self) -> &[(usize, Gimbal)] {
+        &self.gimbals
+    }
+
     /// The floor, and when points enter and leave it.
     pub fn ground(&self) -> Option<&(Floor, Switching)> {
         self.ground.as_ref()
@@ -204,43 +226,6 @@ impl System {
     /// m/s², against z.
     pub fn gravity(&self) -> f64 {
         self.gravity
-    }
-
-    /// Kinetic and potential energy, J.
-    pub fn energy(&self, states: &[BodyState], rates: &[BodyState]) -> f64 {
-        let each = self.links.iter().zip(states).zip(rates);
-        each.map(|((link, x), v)| link.body.energy(x, v, self.gravity)).sum()
-    }
-
-    /// Linear and angular momentum about the world's origin: N·s, N·m·s.
-    pub fn momentum(&self, states: &[BodyState], rates: &[BodyState]) -> ([f64; 3], [f64; 3]) {
-        let mut sum = ([0.0; 3], [0.0; 3]);
-        for ((link, x), v) in self.links.iter().zip(states).zip(rates) {
-            let (linear, angular) = link.body.momentum(x, v);
-            for i in 0..3 {
-                sum.0[i] += linear[i];
-                sum.1[i] += angular[i];
-            }
-        }
-        sum
-    }
-
-    /// Largest constraint, of joints and quaternions.
-    pub fn largest_constraint(&self, states: &[BodyState]) -> f64 {
-        let mut largest = 0.0_f64;
-        for (link, x) in self.links.iter().zip(states) {
-            let inboard = link.inboard.map_or(&WORLD, |inboard| &states[inboard]);
-            for g in link.joint.evaluate(x, inboard) {
-                largest = largest.max(g.abs());
-            }
-            largest = largest.max((x[3..].iter().map(|q| q * q).sum::<f64>() - 1.0).abs());
-        }
-        for closure in &self.closures {
-            for g in closure.at(states).error {
-                largest = largest.max(g.abs());
-            }
-        }
-        largest
     }
 
     /// Checks a start on its manifold.

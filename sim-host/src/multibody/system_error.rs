@@ -49,6 +49,18 @@ pub enum SystemError {
         /// Which one.
         link: usize,
     },
+    /// A link cannot have a gimbal's motors.
+    #[error("link {link}: motors of a gimbal need a spherical joint that has none yet")]
+    Gimbal {
+        /// Which one.
+        link: usize,
+    },
+    /// A start in which a gimbal's motors cannot be told apart.
+    #[error("link {link}: the middle motor of its gimbal is within 5 degrees of a quarter turn")]
+    GimbalLock {
+        /// Which one.
+        link: usize,
+    },
     /// A contact site is on no body, or not at finite coordinates.
     #[error("contact site {site}: a link that exists and finite coordinates are needed")]
     Site {

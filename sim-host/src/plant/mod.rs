@@ -1,5 +1,6 @@
 //! Plants: robots that move under torques.
 
+mod biped_model;
 mod configuration;
 mod energies;
 mod joint_stops;
@@ -9,6 +10,7 @@ mod thrown_block;
 mod variational;
 mod welded;
 
+pub use biped_model::{BipedModel, SMALL_BODIES};
 pub use configuration::retract;
 pub use on_floor::OnFloor;
 pub use struck::Struck;
@@ -129,6 +131,11 @@ pub trait Plant {
     /// Largest step for which the plant is stable, as far as it can be told beforehand, s; `None`
     /// where nothing limits it but accuracy.
     fn step_limit(&self) -> Option<f64>;
+
+    /// What a step solves for.
+    fn unknowns(&self) -> usize {
+        NV
+    }
 
     /// What the solver of implicit steps has done; `None` for plants without one.
     fn progress(&self) -> Option<&Progress> {

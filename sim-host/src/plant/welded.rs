@@ -136,4 +136,8 @@ impl Plant for Welded {
     fn step_limit(&self) -> Option<f64> {
         None
     }
+
+    fn unknowns(&self) -> usize {
+        NV + WELDS
+    }
 }

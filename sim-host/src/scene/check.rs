@@ -1,6 +1,7 @@
 //! What a scene must fulfil before it runs.
 
 use super::check_hardware::check_hardware;
+use super::rung::check_model;
 use super::{Feet, Scene, SceneError, Workspace};
 use crate::integrators::Method;
 use nalgebra::Vector3;
@@ -18,6 +19,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     thrown_block(scene)?;
     timing(scene)?;
     check_hardware(scene)?;
+    check_model(scene)?;
     reach(scene)
 }
 

@@ -3,7 +3,7 @@
 use super::multibody::{BuildError, Misdescribed, Multibody};
 use super::{Integrator, SceneError};
 use crate::integrators::Method;
-use crate::multibody::{ChainJoint, Simulation, states_of_tree, system_of_tree};
+use crate::multibody::{ChainJoint, Simulation, SystemError, states_of_tree, system_of_tree};
 use crate::plant::StepFailure;
 use serde::{Deserialize, Serialize};
 use surefoot::model::robots::biped::TREE;
@@ -236,6 +236,19 @@ impl MechanismScene {
             }
         }
         Ok(())
+    }
+}
+
+impl Mechanism {
+    /// The motion of a biped afloat, with steps of `h`.
+    ///
+    /// # Errors
+    /// As for [`Flight::start`]; [`SystemError::Unsupported`] for another mechanism.
+    pub fn flight(&self, h: f64) -> Result<Simulation, StepFailure> {
+        match self {
+            Self::Biped(flight) => flight.start(h),
+            _ => Err(SystemError::Unsupported { link: 0, what: "a biped" }.into()),
+        }
     }
 }
 

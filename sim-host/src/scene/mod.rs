@@ -10,6 +10,7 @@ mod hardware;
 mod load;
 mod mechanism;
 mod multibody;
+mod rung;
 
 pub use builtin::{BuiltIn, built_in};
 pub use disturbance::{Block, Push, StruckBox};
@@ -17,6 +18,7 @@ pub use hardware::{Acting, JointStops, Sensing};
 pub use load::{AnyScene, SceneError, load, open, parse};
 pub use mechanism::{Flight, Link, MOST_LINKS, Mechanism, MechanismScene};
 pub use multibody::{BodyEntry, BuildError, JointEntry, LoopEntry, Misdescribed, Multibody};
+pub use rung::{LUMPED_DEVIATION_M, Matters, ModelChoice, Rung};
 
 use crate::contact::Floor;
 use crate::integrators::Method;
@@ -36,6 +38,12 @@ pub struct Scene {
     pub description: String,
     /// Simulated time, s.
     pub duration_s: f64,
+    /// How much of the robot is modelled; as little as what matters allows, unless said.
+    #[serde(default, skip_serializing_if = "ModelChoice::is_auto")]
+    pub model: ModelChoice,
+    /// What matters.
+    #[serde(default, skip_serializing_if = "Matters::is_default")]
+    pub matters: Matters,
     /// Method and step.
     pub integrator: Integrator,
     /// Where the robot starts, at rest.

@@ -61,7 +61,7 @@ impl From<StepError> for FailureKind {
     fn from(error: StepError) -> Self {
         match error.failure {
             StepFailure::WrongBranch => Self::WrongBranch,
-            StepFailure::TooManySplits { .. } => Self::NoRoot,
+            StepFailure::TooManySplits { .. } | StepFailure::GimbalLock { .. } => Self::NoRoot,
             StepFailure::Adaptive => Self::Tolerance,
             StepFailure::Newton(NewtonFailure::NoRootNearby { .. }) => Self::NoRoot,
             StepFailure::Newton(NewtonFailure::SingularJacobian { .. }) => Self::Singular,

@@ -28,7 +28,7 @@ fn energy(plant: &mut dyn Plant) -> f64 {
 }
 
 fn variational(state: &PlantState, stops: Option<&[Stops; 12]>, h: f64) -> Variational {
-    let additions = Additions { stops: stops.copied(), block: None };
+    let additions = Additions { stops: stops.copied(), ..Additions::default() };
     Variational::on_floor(state, h, Floor::RUBBER, &SoleOutline::A, &additions).expect("a plant")
 }
 

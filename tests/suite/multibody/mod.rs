@@ -3,6 +3,8 @@
 mod forces;
 mod limits;
 mod loops;
+mod lumped;
+mod merged;
 mod motion;
 mod oracle;
 mod reference;

@@ -34,6 +34,8 @@ enum Stage {
     DocTests,
     /// The report's page and its replay, in a browser.
     Browser,
+    /// Features that a scene does not have execute no instruction, on the host.
+    Unused,
     /// Core compiles for the target.
     Target,
     /// No panicking path in the tick, nor in the rest of core, on the target.
@@ -46,7 +48,8 @@ enum Stage {
 
 impl Options {
     fn wants(&self, stage: Stage) -> bool {
-        let needs_target = !matches!(stage, Stage::Tests | Stage::DocTests | Stage::Browser);
+        let on_host = [Stage::Tests, Stage::DocTests, Stage::Browser, Stage::Unused];
+        let needs_target = !on_host.contains(&stage);
         (self.only.is_empty() || self.only.contains(&stage)) && !(needs_target && self.skip_target)
     }
 }
@@ -62,6 +65,9 @@ pub fn run(options: &Options) -> Result<()> {
     }
     if options.wants(Stage::Browser) {
         record.stage("browser", browser::run);
+    }
+    if options.wants(Stage::Unused) {
+        record.stage("unused", crate::instructions::nothing_unused_runs);
     }
     let on_target = [Stage::Target, Stage::PanicFree, Stage::Firmware, Stage::Budget];
     if on_target.into_iter().any(|stage| options.wants(stage)) {

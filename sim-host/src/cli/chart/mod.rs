@@ -2,6 +2,7 @@
 
 mod limits;
 mod limits_table;
+mod parsimony;
 mod steps;
 
 use crate::stability::loop_limits::Quantity;
@@ -15,13 +16,14 @@ pub struct Options {
     /// What to chart
     #[arg(value_enum)]
     what: What,
-    /// A robot's scene, built in or a TOML file: the limits of its control loop, in place of methods' steps
+    /// A robot's scene, built in or a TOML file: of stability, the limits of its control loop, in place of
+    /// methods' steps; of parsimony, the motion (default: experiment-1)
     #[arg(long)]
     scene: Option<String>,
-    /// With `--scene`: only this limit; may be given more than once
+    /// Of stability, with `--scene`: only this limit; may be given more than once
     #[arg(long, value_enum, requires = "scene")]
     only: Vec<Quantity>,
-    /// With `--scene`: forget what an earlier call has found
+    /// Of stability, with `--scene`: forget what an earlier call has found
     #[arg(long, requires = "scene")]
     fresh: bool,
     /// Where the tables go
@@ -38,13 +40,15 @@ enum What {
     /// The longest step of each method on each problem, how it fails beyond, and what was foretold; of a
     /// robot's scene, how far its control loop goes
     Stability,
+    /// What models of different size cost for one motion, and how far they are off
+    Parsimony,
 }
 
 /// Charts.
 pub fn chart(options: &Options) -> ExitCode {
-    let What::Stability = options.what;
-    match &options.scene {
-        None => steps::scan_steps(options),
-        Some(scene) => limits::find_limits(scene, options),
+    match (options.what, &options.scene) {
+        (What::Stability, None) => steps::scan_steps(options),
+        (What::Stability, Some(scene)) => limits::find_limits(scene, options),
+        (What::Parsimony, _) => parsimony::chart_parsimony(options),
     }
 }

@@ -1,6 +1,7 @@
 //! All that a motion needs to go on: what it remembers of its past.
 
 use super::coordinates::{Coordinates, Increment};
+use super::motors::Turned;
 use crate::contact::{BoxPoint, ContactPoint};
 use crate::integrators::Progress;
 use serde::{Deserialize, Serialize};
@@ -27,6 +28,9 @@ pub struct Checkpoint {
     /// Mean forces on strikers in the last step, N.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) strike_forces: Vec<[f64; 3]>,
+    /// By spherical joint with motors.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) turned: Vec<Turned>,
     /// Largest speed so far, m/s: what residuals are measured by.
     pub(super) fastest: f64,
     pub(super) progress: Progress,
@@ -46,6 +50,7 @@ impl Checkpoint {
         self.forces.copy_from_slice(&other.forces);
         self.strikes.copy_from_slice(&other.strikes);
         self.strike_forces.copy_from_slice(&other.strike_forces);
+        self.turned.copy_from_slice(&other.turned);
         self.fastest = other.fastest;
         self.progress = other.progress;
     }
@@ -60,7 +65,7 @@ impl Checkpoint {
                 c.multipliers.len(),
                 c.memories.len(),
                 c.forces.len(),
-                [c.strikes.len(), c.strike_forces.len()],
+                [c.strikes.len(), c.strike_forces.len(), c.turned.len()],
             )
         };
         sizes(self) == sizes(other) && self.progress.h == other.progress.h

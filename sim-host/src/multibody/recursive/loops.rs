@@ -63,10 +63,7 @@ impl Loops {
         }
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.rows.is_empty()
-    }
-
+    /// How many constraints.
     pub fn len(&self) -> usize {
         self.rows.len()
     }
@@ -174,13 +171,12 @@ impl Loops {
     fn eliminate(&mut self) {
         let n = self.rows.len();
         self.pivots.clear();
+        let (mut row_is_used, mut column_is_used) = ([false; MOST], [false; MOST]);
         let mut first = 0.0;
         for _ in 0..n {
-            let free_row = |i: &usize| self.pivots.iter().all(|(r, _)| r != i);
-            let free_column = |j: &usize| self.pivots.iter().all(|(_, c)| c != j);
             let mut best = (0, 0, 0.0_f64);
-            for i in (0..n).filter(free_row) {
-                for j in (0..n).filter(free_column) {
+            for i in (0..n).filter(|i| !row_is_used[*i]) {
+                for j in (0..n).filter(|j| !column_is_used[*j]) {
                     let size = self.schur[i * n + j].abs();
                     if size > best.2 {
                         best = (i, j, size);
@@ -195,16 +191,12 @@ impl Loops {
                 break;
             }
             self.pivots.push((r, c));
-            for i in 0..n {
-                if self.pivots.iter().any(|(row, _)| *row == i) {
-                    continue;
-                }
+            (row_is_used[r], column_is_used[c]) = (true, true);
+            for i in (0..n).filter(|i| !row_is_used[*i]) {
                 let factor = self.schur[i * n + c] / self.schur[r * n + c];
                 self.schur[i * n + c] = factor;
-                for j in 0..n {
-                    if self.pivots.iter().all(|(_, column)| *column != j) {
-                        self.schur[i * n + j] -= factor * self.schur[r * n + j];
-                    }
+                for j in (0..n).filter(|j| !column_is_used[*j]) {
+                    self.schur[i * n + j] -= factor * self.schur[r * n + j];
                 }
             }
         }
@@ -218,12 +210,12 @@ impl Loops {
         for (x, row) in right.iter_mut().zip(&self.rows) {
             *x = -row.error - row.along(tree.motions());
         }
-        for (at, (r, c)) in self.pivots.iter().enumerate() {
+        let mut row_is_used = [false; MOST];
+        for (r, c) in &self.pivots {
             let value = right[*r];
-            for (i, x) in right.iter_mut().enumerate() {
-                if self.pivots[..=at].iter().all(|(row, _)| *row != i) {
-                    *x -= self.schur[i * n + c] * value;
-                }
+            row_is_used[*r] = true;
+            for (i, x) in right.iter_mut().enumerate().filter(|(i, _)| !row_is_used[*i]) {
+                *x -= self.schur[i * n + c] * value;
             }
         }
         let mut solution = [0.0; MOST];

@@ -13,6 +13,7 @@ mod coordinates;
 mod elimination;
 mod forecast;
 mod loops;
+mod motors;
 mod newton;
 mod node;
 mod rates;

@@ -85,7 +85,8 @@ impl Simulation {
             *guess = last[k].beyond(&before[k], ratio);
         }
         self.trial.begin(&self.system, &self.nodes, &self.places, self.at.fastest, h);
-        if !self.loops.is_empty() {
+        self.trial.begin_motors(&self.motors, &self.loads);
+        if !self.system.closures().is_empty() {
             self.loops.begin(self.system.closures(), &self.places);
         }
         let mut error = self.evaluate(h);
@@ -144,25 +145,30 @@ impl Simulation {
             return Err(self.at.progress.error(StepFailure::WrongBranch));
         }
         self.accept(h);
+        if let Some(motors) = self.motors.iter().find(|motors| motors.is_locked()) {
+            let joint = motors.link;
+            return Err(self.at.progress.error(StepFailure::GimbalLock { joint }));
+        }
         self.at.progress.iterated(iterations, error);
         Ok(())
     }
 
     /// Newton's correction at the trial, with the elimination made anew or with the last one.
     fn correct(&mut self, anew: bool, h: f64) -> Result<(), StepError> {
+        let has_loops = !self.system.closures().is_empty();
         let Self { elimination, nodes, places, trial, at, corrections, loops, .. } = self;
         let momenta = &at.momenta;
         if anew {
             elimination
                 .factor(nodes, places, trial, h)
                 .map_err(|joint| singular(&at.progress, joint))?;
-            if !loops.is_empty() {
+            if has_loops {
                 loops.factor(nodes, elimination);
             }
         }
         let own = |c: usize| momenta[c] + trial.own_impulses[c];
         elimination.solve(nodes, |k| trial.ends[k].own, own, corrections);
-        if !loops.is_empty() {
+        if has_loops {
             loops.correct(elimination, corrections);
         }
         Ok(())
@@ -194,9 +200,10 @@ impl Simulation {
             loads: &self.loads,
             h,
         };
-        self.trial.evaluate(&step, self.loops.impulses(&self.at.multipliers));
+        let has_loops = !self.system.closures().is_empty();
+        self.trial.evaluate(&step, has_loops.then_some((&self.loops, &self.at.multipliers[..])));
         let mut loop_error = 0.0;
-        if !self.loops.is_empty() {
+        if has_loops {
             self.loops.end(self.system.closures(), &self.places, &self.trial);
             loop_error = self.loops.largest_error();
         }
@@ -228,8 +235,13 @@ impl Simulation {
                 *before = before.scaled(h / self.at.last_h);
             }
         }
+        let ratio = h / self.at.last_h;
         self.at.last_h = h;
         self.find_places();
+        for (motors, turned) in self.motors.iter().zip(&mut self.at.turned) {
+            turned.go_on(motors.angles(), ratio);
+        }
+        self.trial.end_motors(&self.motors, &self.loads, h);
         let coordinates = &self.at.coordinates;
         let step = Step {
             system: &self.system,
@@ -246,9 +258,11 @@ impl Simulation {
             self.trial.ends[k].all = self.trial.end_momentum(&step, k, &self.places[k]);
         }
         let Trial { strikes, ends, .. } = &mut self.trial;
-        for (strike, force) in strikes.iter().zip(&mut self.at.strike_forces) {
-            strike.add_end_impulses(&self.places, ends, h);
-            *force = strike.remember(&mut self.at.strikes).into();
+        if !strikes.is_empty() {
+            for (strike, force) in strikes.iter().zip(&mut self.at.strike_forces) {
+                strike.add_end_impulses(&self.places, ends, h);
+                *force = strike.remember(&mut self.at.strikes).into();
+            }
         }
         let own = std::mem::take(&mut self.trial.own_impulses);
         self.gather_momenta(|c| own[c]);

@@ -27,13 +27,15 @@ impl Simulation {
     /// Velocities by column from the last two steps' mean ones, carried on to now; before the first step,
     /// those of the start. They are of the method's order like those that belong to the momentum. Where a
     /// stiff damper holds a joint, as the floor holds a foot, the momentum swings to and fro about them: this
-    /// is what encoders see.
+    /// is what encoders see. Of a spherical joint with motors they are the motors' rates.
     ///
     /// # Errors
     /// As for [`Self::column_rates`].
     pub fn observed_rates(&mut self) -> Result<&[f64], StepError> {
         if self.at.progress.steps == 0 {
-            return self.column_rates();
+            self.column_rates()?;
+            self.motors.iter().for_each(|motors| motors.tell_rates(&mut self.corrections));
+            return Ok(&self.corrections);
         }
         let h = self.at.last_h;
         let [last, before] = &self.at.last;
@@ -42,6 +44,10 @@ impl Simulation {
             rates.fill(0.0);
             node.add_mean_rates(&last[k], 1.5 / h, rates);
             node.add_mean_rates(&before[k], -0.5 / h, rates);
+        }
+        for (motors, turned) in self.motors.iter().zip(&self.at.turned) {
+            let rates = &mut self.corrections[motors.column..motors.column + 3];
+            rates.copy_from_slice(&turned.observed(h));
         }
         Ok(&self.corrections)
     }
@@ -65,17 +71,18 @@ impl Simulation {
         }
         self.trial.strikes.iter_mut().for_each(Strike::forget);
         self.trial.own_slopes.fill(0.0);
+        let has_loops = !self.system.closures().is_empty();
         let Self { elimination, nodes, places, trial, at, corrections, loops, .. } = self;
         elimination
             .factor(nodes, places, trial, h)
             .map_err(|joint| singular(&at.progress, joint))?;
-        if !loops.is_empty() {
+        if has_loops {
             loops.begin(self.system.closures(), places);
             loops.stand_still();
             loops.factor(nodes, elimination);
         }
         elimination.solve(nodes, |_| Pair::ZERO, |c| impulses[c], corrections);
-        if !loops.is_empty() {
+        if has_loops {
             loops.correct(elimination, corrections);
         }
         for x in corrections.iter_mut() {

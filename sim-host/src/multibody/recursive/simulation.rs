@@ -7,6 +7,7 @@ use super::checkpoint::Checkpoint;
 use super::coordinates::{Coordinates, Increment};
 use super::elimination::Elimination;
 use super::loops::{Loops, MOST};
+use super::motors::{Motors, Turned};
 use super::node::{Kind, Node, Place, nodes};
 use super::step::{Loads, Trial, project};
 use super::stiffness::Pair;
@@ -26,6 +27,7 @@ pub struct Simulation {
     pub(super) splits: bool,
     pub(super) places: Vec<Place>,
     pub(super) loads: Loads,
+    pub(super) motors: Vec<Motors>,
     /// What a column's momentum is in speed, 1/kg or 1/(kg·m).
     pub(super) weights: Vec<f64>,
     pub(super) trial: Trial,
@@ -67,6 +69,7 @@ impl Simulation {
             return Err(SystemError::TooManyLoops { constraints: loops.len(), most: MOST });
         }
         let trial = Trial::new(&system, &nodes, columns);
+        let motors = Motors::all(&system, &nodes);
         let at = Checkpoint {
             coordinates,
             momenta: vec![0.0; columns],
@@ -77,6 +80,7 @@ impl Simulation {
             forces: vec![[0.0; 3]; system.sites().len()],
             strikes: vec![BoxPoint::default(); trial.strikes.last().map_or(0, |s| s.points.end)],
             strike_forces: vec![[0.0; 3]; trial.strikes.len()],
+            turned: vec![Turned::default(); motors.len()],
             fastest: system.gravity().abs() * h,
             progress: Progress::new(h),
         };
@@ -86,6 +90,7 @@ impl Simulation {
             at,
             splits: true,
             places: vec![Place::world(); nodes.len()],
+            motors,
             loads: Loads { torques: vec![0.0; columns], wrenches: vec![Pair::ZERO; nodes.len()] },
             base: trial.increments.clone(),
             base_multipliers: vec![0.0; loops.len()],
@@ -97,6 +102,9 @@ impl Simulation {
             system,
         };
         simulation.find_places();
+        if let Some(motors) = simulation.motors.iter().find(|motors| motors.is_locked()) {
+            return Err(SystemError::GimbalLock { link: motors.link });
+        }
         simulation.set_rates(rates);
         Ok(simulation)
     }
@@ -203,6 +211,10 @@ impl Simulation {
             let inboard = node.inboard.map_or(&world, |i| &self.places[i]);
             self.places[k] = node.place(&self.at.coordinates[k], inboard);
         }
+        for motors in &mut self.motors {
+            let inboard = self.nodes[motors.link].inboard.map_or(&world, |i| &self.places[i]);
+            motors.find(self.at.coordinates[motors.link].orientation, inboard);
+        }
     }
 
     /// Momenta of these rates, and a first guess of the increments.
@@ -229,6 +241,12 @@ impl Simulation {
                 let by = &self.corrections[node.columns.clone()];
                 self.at.last[0][k] = node.corrected(&Increment::NONE, by, h);
                 self.at.last[1][k] = self.at.last[0][k];
+            }
+            for (motors, turned) in self.motors.iter().zip(&mut self.at.turned) {
+                motors.tell_rates(&mut self.corrections);
+                let c = motors.column;
+                let step = std::array::from_fn(|i| self.corrections[c + i] * h);
+                *turned = Turned::start(motors.angles(), step);
             }
         }
     }

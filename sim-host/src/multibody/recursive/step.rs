@@ -17,6 +17,7 @@
 //! the arms of either: then their moment about any point is that of the mean position.
 
 use super::coordinates::Increment;
+use super::loops::Loops;
 use super::node::{Kind, Node, Place};
 use super::stiffness::Pair;
 use super::strike::Strike;
@@ -81,6 +82,8 @@ pub(super) struct Trial {
     pub touches: Vec<Touch>,
     pub strikes: Vec<Strike>,
     pub laws: Vec<Law>,
+    /// Torques of spherical joints' motors at the step's beginning, world axes, with their first columns.
+    pub motor_torques: Vec<(usize, Vector3<f64>)>,
     /// By column: `½h τ`, and its derivative.
     pub own_impulses: Vec<f64>,
     pub own_slopes: Vec<f64>,
@@ -139,6 +142,11 @@ impl Trial {
                     law: *law,
                 })
                 .collect(),
+            motor_torques: system
+                .gimbals()
+                .iter()
+                .map(|(link, _)| (nodes[*link].columns.start, Vector3::zeros()))
+                .collect(),
             own_impulses: vec![0.0; columns],
             own_slopes: vec![0.0; columns],
             residuals: vec![0.0; columns],
@@ -159,20 +167,25 @@ impl Trial {
                 touch.begin = place.rotation * touch.arm;
             }
         }
-        for (strike, striker) in self.strikes.iter_mut().zip(system.strikers()) {
-            strike.begin(striker, places, fastest, h);
+        // What a loop over no strikers would prepare is not computed either.
+        if !self.strikes.is_empty() {
+            for (strike, striker) in self.strikes.iter_mut().zip(system.strikers()) {
+                strike.begin(striker, places, fastest, h);
+            }
         }
     }
 
-    /// Evaluates (1) at the increments, with the impulses of loops on bodies.
-    pub fn evaluate(&mut self, step: &Step, loops: impl Iterator<Item = (usize, Pair)>) {
+    /// Evaluates (1) at the increments, with the loops' multipliers, if there are loops.
+    pub fn evaluate(&mut self, step: &Step, loops: Option<(&Loops, &[f64])>) {
         for k in 0..step.nodes.len() {
             self.ends[k] = self.end(step, k);
         }
-        for (strike, striker) in self.strikes.iter_mut().zip(step.system.strikers()) {
-            strike.evaluate(striker, step.strikes, step.places, &mut self.ends, step.h);
+        if !self.strikes.is_empty() {
+            for (strike, striker) in self.strikes.iter_mut().zip(step.system.strikers()) {
+                strike.evaluate(striker, step.strikes, step.places, &mut self.ends, step.h);
+            }
         }
-        for (body, impulse) in loops {
+        for (body, impulse) in loops.into_iter().flat_map(|(loops, m)| loops.impulses(m)) {
             let end = &mut self.ends[body];
             end.own.subtract(&impulse);
             end.all = end.own;
@@ -198,6 +211,11 @@ impl Trial {
         let half = 0.5 * step.h;
         for (impulse, torque) in self.own_impulses.iter_mut().zip(&step.loads.torques) {
             *impulse = half * torque;
+        }
+        for (column, torque) in &self.motor_torques {
+            for i in 0..3 {
+                self.own_impulses[column + i] = half * torque[i];
+            }
         }
         if self.laws.is_empty() {
             return;

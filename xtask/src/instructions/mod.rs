@@ -6,24 +6,27 @@
 //! small program under callgrind, one of which makes twice the calls of the other: what they do not
 //! have in common are the calls.
 
+mod callgrind;
+mod unused;
+
+pub use unused::nothing_unused_runs;
+
 use crate::step::Step;
 use crate::{apt, workspace};
 use anyhow::{Context, Result, bail, ensure};
+use callgrind::Counts;
 use clap::Args;
 use serde::Serialize;
-use std::path::{Path, PathBuf};
-
-/// Calls in the shorter run. Every call is like the others, so that a few will do.
-const CALLS: u64 = 10;
-
-/// Seconds for one run; the longest takes two.
-const RUN_LIMIT: u64 = 120;
+use std::path::PathBuf;
 
 /// What to count, and how to say it.
 #[derive(Args)]
 pub struct Options {
     /// Count only the workloads with all of these words among algorithm, model and scalar.
     words: Vec<String>,
+    /// Check instead that steps of scenes without a feature run none of its code.
+    #[arg(long, conflicts_with_all = ["words", "json"])]
+    unused: bool,
     /// Print one JSON document on stdout, and nothing else.
     #[arg(long)]
     json: bool,
@@ -51,6 +54,10 @@ struct Row {
 
 /// Builds the program, counts, and prints.
 pub fn run(options: &Options) -> Result<()> {
+    if options.unused {
+        println!("{}", nothing_unused_runs()?);
+        return Ok(());
+    }
     let tool = provide_valgrind()?;
     let program = build()?;
     let rustc = workspace::rustc(["--version", "--verbose"]).read()?;
@@ -70,7 +77,7 @@ pub fn run(options: &Options) -> Result<()> {
         if !options.words.iter().all(|word| parts.contains(&word.as_str())) {
             continue;
         }
-        let instructions = count(&program, name)?;
+        let instructions = Counts::of_call(&program, name)?.total;
         eprintln!("  {name}: {instructions}");
         let [algorithm, model, scalar] = [algorithm, model, scalar].map(str::to_owned);
         report.rows.push(Row { algorithm, model, scalar, instructions });
@@ -86,29 +93,6 @@ pub fn run(options: &Options) -> Result<()> {
         print(&report);
     }
     Ok(())
-}
-
-/// Instructions of one call.
-fn count(program: &Path, workload: &str) -> Result<u64> {
-    let counts = program.with_extension("callgrind");
-    let total = |calls: u64| -> Result<u64> {
-        Step::new("valgrind", ["--quiet", "--tool=callgrind"])
-            .args([format!("--callgrind-out-file={}", counts.display())])
-            .args([program])
-            .args([workload, &calls.to_string()])
-            .within(RUN_LIMIT)
-            .read()?;
-        let file = std::fs::read_to_string(&counts)
-            .with_context(|| format!("callgrind has not written {}", counts.display()))?;
-        read_total(&file).with_context(|| format!("{} has no total", counts.display()))
-    };
-    let (once, twice) = (total(CALLS)?, total(2 * CALLS)?);
-    Ok(twice.saturating_sub(once) / CALLS)
-}
-
-/// The number of instructions in a file of callgrind's.
-fn read_total(file: &str) -> Option<u64> {
-    file.lines().rev().find_map(|line| line.strip_prefix("totals: "))?.trim().parse().ok()
 }
 
 /// # Returns
@@ -137,17 +121,5 @@ fn print(report: &Report) {
     println!("{:<24} {:<12} {:<6} {:>12}", "algorithm", "model", "scalar", "instructions");
     for Row { algorithm, model, scalar, instructions } in &report.rows {
         println!("{algorithm:<24} {model:<12} {scalar:<6} {instructions:>12}");
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::read_total;
-
-    #[test]
-    fn the_total_is_read_from_the_end_of_the_file() {
-        let file = "# callgrind format\nsummary: 7\n\nfn=(0)\n1 2\n\ntotals: 439958\n";
-        assert_eq!(read_total(file), Some(439_958));
-        assert_eq!(read_total("summary: 7\n"), None);
     }
 }

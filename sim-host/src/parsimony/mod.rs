@@ -1,0 +1,14 @@
+//! What models of different size cost for one motion, and how far they are apart.
+//!
+//! ```text
+//! scene ─► Rung::of(scene) ─ play(copies) ─► Played: path, steps, time
+//!                          └ count ─► instructions a step, by callgrind on this program itself
+//! ```
+
+mod callgrind;
+mod ladder;
+mod play;
+
+pub use callgrind::{CountFailure, count};
+pub use ladder::{Ladder, Row, climb};
+pub use play::{PlayFailure, Played, Rung};
