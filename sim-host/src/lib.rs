@@ -6,8 +6,8 @@
 //!                 └──► Controller (host f32 or f64)
 //! ```
 //! Beside it stands chapter 2: [`mechanics`] (Lagrangians, discrete and not), [`newton`] (the one
-//! nonlinear solver), [`integrators`], and [`stability`] (how long their steps may be); of chapter 5
-//! [`multibody`]. Scenes of either run by [`mechanism`].
+//! nonlinear solver), [`integrators`], [`stability`] (how long their steps may be) and [`precision`]
+//! (what accuracy costs); of chapter 5 [`multibody`]. Scenes of either run by [`mechanism`].
 //!
 //! All of it in f64, but for a controller in f32. A plant allocates when it is built, never in a
 //! step.
@@ -24,6 +24,7 @@ pub mod multibody;
 pub mod newton;
 pub mod picture;
 pub mod plant;
+pub mod precision;
 pub mod record;
 pub mod report;
 pub mod scene;

@@ -2,6 +2,7 @@
 
 mod limits;
 mod limits_table;
+mod precision;
 mod steps;
 
 use crate::stability::loop_limits::Quantity;
@@ -21,9 +22,12 @@ pub struct Options {
     /// With `--scene`: only this limit; may be given more than once
     #[arg(long, value_enum, requires = "scene")]
     only: Vec<Quantity>,
-    /// With `--scene`: forget what an earlier call has found
-    #[arg(long, requires = "scene")]
+    /// Forget what an earlier call has found
+    #[arg(long)]
     fresh: bool,
+    /// Of `work-precision`: only this problem; may be given more than once
+    #[arg(long)]
+    problem: Vec<String>,
     /// Where the tables go
     #[arg(long, default_value = "out/chart")]
     out: PathBuf,
@@ -38,13 +42,15 @@ enum What {
     /// The longest step of each method on each problem, how it fails beyond, and what was foretold; of a
     /// robot's scene, how far its control loop goes
     Stability,
+    /// Error against computing time, step and evaluations, of each method on each problem
+    WorkPrecision,
 }
 
 /// Charts.
 pub fn chart(options: &Options) -> ExitCode {
-    let What::Stability = options.what;
-    match &options.scene {
-        None => steps::scan_steps(options),
-        Some(scene) => limits::find_limits(scene, options),
+    match (options.what, &options.scene) {
+        (What::Stability, None) => steps::scan_steps(options),
+        (What::Stability, Some(scene)) => limits::find_limits(scene, options),
+        (What::WorkPrecision, _) => precision::work_precision(options),
     }
 }

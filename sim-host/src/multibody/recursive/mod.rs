@@ -17,6 +17,7 @@ mod newton;
 mod node;
 mod rates;
 mod simulation;
+mod stages;
 mod step;
 mod stiffness;
 mod strike;
