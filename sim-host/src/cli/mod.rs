@@ -3,6 +3,7 @@
 //! Results go to stdout, progress and messages to stderr. Exit status: 0 done, 1 the run failed for
 //! a stated reason, 2 bad usage or input.
 
+mod advise;
 mod chart;
 mod controller;
 mod list;
@@ -30,6 +31,8 @@ enum Command {
     Reproduce(reproduce::Options),
     /// Chart what methods can do
     Chart(chart::Options),
+    /// Advise on a method and a step for a scene and an accuracy
+    Advise(advise::Options),
     /// List scenes, integrators and robots
     List(list::Options),
 }
@@ -47,6 +50,7 @@ pub fn main() -> ExitCode {
         Some(Command::Run(options)) => run::run(&options),
         Some(Command::Reproduce(options)) => reproduce::reproduce(&options),
         Some(Command::Chart(options)) => chart::chart(&options),
+        Some(Command::Advise(options)) => advise::advise(&options),
         Some(Command::List(options)) => list::list(&options),
     }
 }

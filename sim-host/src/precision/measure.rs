@@ -2,8 +2,8 @@
 
 use super::course::{Course, Trouble};
 use crate::mechanism::StartFailure;
+use cpu_time::ThreadTime;
 use serde::{Deserialize, Serialize};
-use std::time::Instant;
 
 /// When a motion is looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,17 +117,18 @@ fn advance(
     Ok(())
 }
 
-/// Makes all steps and nothing else. Seconds that it took; none where it fails.
+/// Makes all steps and nothing else. Seconds of this thread that it took; none where it fails.
 pub fn time(course: &mut dyn Course, span: &Span, divisions: u32) -> Option<f64> {
     let steps = u64::from(span.samples) * u64::from(divisions);
-    let begun = Instant::now();
+    let begun = ThreadTime::now();
     for _ in 0..steps {
         course.step().ok()?;
     }
     Some(begun.elapsed().as_secs_f64())
 }
 
-/// Computing time a simulated second.
+/// Computing time a simulated second: of the thread, so that it stands still while others have the
+/// processor.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
     /// Median of the repeats, s.

@@ -5,7 +5,7 @@ use super::course::{Course, OfMechanism};
 use super::problem::Omission;
 use crate::integrators::{Method, StartError};
 use crate::mechanism::{StartFailure, start_within};
-use crate::scene::MechanismScene;
+use crate::scene::{Mechanism, MechanismScene};
 
 /// All methods that take the mechanism, and those that do not.
 ///
@@ -15,6 +15,7 @@ pub(super) fn mechanism_contenders(
     scene: &MechanismScene,
 ) -> Result<(Vec<Contender>, Vec<Omission>), StartFailure> {
     let (mut contenders, mut omitted) = (Vec::new(), Vec::new());
+    let is_natural = !matches!(scene.mechanism, Mechanism::RigidBody { .. });
     for method in Method::all().iter().copied() {
         let mut scene = scene.clone();
         scene.integrator.name = method;
@@ -36,8 +37,16 @@ pub(super) fn mechanism_contenders(
         });
         contenders.push(match method {
             Method::DormandPrince8 => Contender::adaptive(method.name(), start),
-            _ => Contender::stepping(method.name(), method.order(), start),
+            _ => Contender::stepping(method.name(), order(method, is_natural), start),
         });
     }
     Ok((contenders, omitted))
+}
+
+/// The endpoint rule is of second order only where masses are constant.
+fn order(method: Method, is_natural: bool) -> Option<u32> {
+    match method {
+        Method::VariationalEndpoint if !is_natural => Some(1),
+        _ => method.order(),
+    }
 }

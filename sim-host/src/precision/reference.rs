@@ -1,7 +1,9 @@
 //! What is exact about a problem, as nearly as can be told, by two methods that share nothing.
 //!
 //! Errors are distances from the first; its own method's are from the second. How far the two are apart is
-//! the floor below which no error means anything.
+//! the floor below which no error means anything. Where the second is of low order it can only confirm the
+//! first as far as it has itself converged: then all errors are from the first, and the floor is what halving
+//! its finest step changes.
 
 use super::contender::Contender;
 use super::measure::{Level, Span, distance};
@@ -39,6 +41,10 @@ fn rank(name: &str) -> usize {
     let all = [Method::DormandPrince8, Method::Yoshida6, Method::Yoshida4, Method::RungeKutta4];
     all.iter().position(|method| method.name() == name).unwrap_or(all.len())
 }
+
+/// A method of first order is as far from its limit as its last halving changed it; this allows for twice
+/// that, and for luck.
+const CONFIRMED: f64 = 3.0;
 
 /// The references' share of evaluations, over that of what is measured.
 const CARE: u64 = 10;
@@ -78,6 +84,20 @@ pub fn reference(problem: &Problem, most_evaluations: u64) -> Result<Reference, 
         });
     };
     let apart = distance(&second.places, &first.places).unwrap_or(f64::INFINITY);
+    if first.apart < apart && apart <= CONFIRMED * second.apart {
+        let checked_by = format!(
+            "{checked_by}, which at its finest step is {apart:.1e} away and changes by {:.1e} from the one \
+             before",
+            second.apart
+        );
+        return Ok(Reference {
+            places: first.places,
+            by,
+            second: None,
+            checked_by,
+            apart: first.apart,
+        });
+    }
     Ok(Reference { places: first.places, by, second: Some(second.places), checked_by, apart })
 }
 

@@ -1,7 +1,7 @@
 //! A method on a problem, from the coarsest step to the finest that is worth its time.
 
 use super::contender::Contender;
-use super::measure::{Level, Measurement, Played, Timing, band_and_slope, distance};
+use super::measure::{Failed, Level, Measurement, Played, Timing, band_and_slope, distance};
 use super::problem::Problem;
 use super::reference::Reference;
 use super::slope::{Fit, fitted};
@@ -40,6 +40,8 @@ pub struct Curve {
 
 /// Repeats of short runs at most.
 const MOST_REPEATS: u32 = 200;
+/// A motion that is off by more, relative to how far it reaches, is none.
+const DIVERGED: f64 = 10.0;
 /// Errors within this multiple of the reference's own are no errors of the method.
 pub const ABOVE_FLOOR: f64 = 5.0;
 
@@ -55,8 +57,8 @@ pub fn sweep(
     for level in contender.levels.iter().copied() {
         let played = contender.runs.play(&problem.span, level);
         let evaluations = played.evaluations;
-        let timing = played.failure.is_none().then(|| timed(problem, contender, level, effort));
         let made = measured(problem, contender, level, played, reference);
+        let timing = made.failure.is_none().then(|| timed(problem, contender, level, effort));
         let is_fine = made.error.is_some_and(|error| error < ABOVE_FLOOR * reference.apart);
         measurements.push(Measurement { time: timing.flatten(), ..made });
         at_floor += u32::from(is_fine);
@@ -103,7 +105,16 @@ pub fn measured(
         Some(second) if reference.by == contender.name => second,
         _ => &reference.places,
     };
-    let is_whole = played.failure.is_none();
+    let error = distance(&played.places, exact).filter(|_| played.failure.is_none());
+    let failure = played.failure.or_else(|| match error {
+        Some(error) if error <= DIVERGED => None,
+        // Beyond any place that the motion has.
+        _ => Some(Failed {
+            time_s: problem.span.duration_s,
+            reason: "the motion diverged".to_owned(),
+        }),
+    });
+    let is_whole = failure.is_none();
     let energies = if problem.keeps_energy && is_whole { &played.energies[..] } else { &[] };
     let energy = band_and_slope(energies);
     let mut step_s = contender.runs.step_s(&problem.span, level);
@@ -120,11 +131,11 @@ pub fn measured(
         newton_mean: played.newton.map(|(mean, _)| mean),
         newton_most: played.newton.map(|(_, most)| most),
         split_steps: played.split_steps,
-        error: if is_whole { distance(&played.places, exact) } else { None },
+        error: error.filter(|_| is_whole),
         energy_band_j: energy.map(|(band, _)| band),
         energy_slope_j_s: energy.map(|(_, slope)| slope),
         momentum_drift: played.momentum_drift.filter(|_| is_whole),
         constraint: played.constraint.filter(|_| is_whole && problem.keeps_energy),
-        failure: played.failure,
+        failure,
     }
 }

@@ -44,6 +44,8 @@ enum What {
     Stability,
     /// Error against computing time, step and evaluations, of each method on each problem
     WorkPrecision,
+    /// Everything that needs no scene: half an hour at most
+    All,
 }
 
 /// Charts.
@@ -52,5 +54,9 @@ pub fn chart(options: &Options) -> ExitCode {
         (What::Stability, None) => steps::scan_steps(options),
         (What::Stability, Some(scene)) => limits::find_limits(scene, options),
         (What::WorkPrecision, _) => precision::work_precision(options),
+        (What::All, _) => {
+            let first = steps::scan_steps(options);
+            if first == ExitCode::SUCCESS { precision::work_precision(options) } else { first }
+        }
     }
 }
