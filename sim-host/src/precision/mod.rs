@@ -4,6 +4,8 @@
 //! scene ─► Problem ─┬► Contender (method) ─ play, time ─► Measurement ─► Curve ─► ranked ─► advice
 //!                   └► Reference: two methods that share nothing ──┘         └► charts, page
 //! ```
+//! The same for the controller: [`controller_precision`], errors of torques and of the motion.
+//!
 //! Errors are distances of places at [`problem::SAMPLES`] times from the reference's, over how far its motion
 //! reaches. All but times is deterministic.
 
@@ -11,6 +13,8 @@ mod advice;
 mod catalogue;
 mod closed_loop;
 mod contender;
+mod controller;
+mod controller_figures;
 mod course;
 mod figures;
 mod measure;
@@ -32,6 +36,10 @@ mod tree_model;
 pub use advice::{Advice, AdviceError, advise};
 pub use catalogue::{CatalogueError, PROBLEMS, problem};
 pub use contender::{Contender, Runs, Start};
+pub use controller::{
+    ControllerPrecision, FASTEST_HZ, TorqueError, TrackingError, controller_precision,
+};
+pub use controller_figures::controller_figures;
 pub use course::{Conserved, Course, Trouble};
 pub use figures::{PrecisionFigure, figures};
 pub use measure::{Failed, Level, Measurement, Played, Span, Timing, distance};

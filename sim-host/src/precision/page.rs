@@ -1,5 +1,7 @@
 //! One page of all surveys that needs no network.
 
+use super::controller::ControllerPrecision;
+use super::controller_figures::controller_figures;
 use super::figures::{PrecisionFigure, figures};
 use super::recommend::{ERROR_MARGIN, STEP_MARGIN, ranked};
 use super::sentences::{self, ACCURACIES};
@@ -26,6 +28,7 @@ struct Page<'a> {
     error_margin: f64,
     step_margin: f64,
     sections: Vec<Section<'a>>,
+    controller: Vec<PrecisionFigure>,
     style: &'static str,
 }
 
@@ -52,7 +55,11 @@ struct Row {
 ///
 /// # Errors
 /// A [`PrecisionPageFailure`].
-pub fn page(surveys: &[Survey], machine: &str) -> Result<String, PrecisionPageFailure> {
+pub fn page(
+    surveys: &[Survey],
+    controller: &ControllerPrecision,
+    machine: &str,
+) -> Result<String, PrecisionPageFailure> {
     let section = |survey| -> Result<Section<'_>, ChartError> {
         Ok(Section {
             recommended: recommended(survey),
@@ -67,6 +74,7 @@ pub fn page(surveys: &[Survey], machine: &str) -> Result<String, PrecisionPageFa
         machine,
         error_margin: ERROR_MARGIN,
         step_margin: STEP_MARGIN,
+        controller: controller_figures(controller)?,
         sections: surveys.iter().map(section).collect::<Result<_, _>>()?,
         style: include_str!("../report/page.css"),
     };

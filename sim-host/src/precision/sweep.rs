@@ -43,7 +43,9 @@ const MOST_REPEATS: u32 = 200;
 /// A motion that is off by more, relative to how far it reaches, is none.
 const DIVERGED: f64 = 10.0;
 /// Errors within this multiple of the reference's own are no errors of the method.
-pub const ABOVE_FLOOR: f64 = 5.0;
+const ABOVE_FLOOR: f64 = 5.0;
+/// Larger errors are worth making smaller, whatever the reference.
+const SMALL: f64 = 1e-3;
 
 /// Measures a contender at its levels.
 pub fn sweep(
@@ -59,7 +61,9 @@ pub fn sweep(
         let evaluations = played.evaluations;
         let made = measured(problem, contender, level, played, reference);
         let timing = made.failure.is_none().then(|| timed(problem, contender, level, effort));
-        let is_fine = made.error.is_some_and(|error| error < ABOVE_FLOOR * reference.apart);
+        // Where the reference itself is not sure, nothing is at its floor.
+        let floor = (ABOVE_FLOOR * reference.apart).min(SMALL);
+        let is_fine = made.error.is_some_and(|error| error < floor);
         measurements.push(Measurement { time: timing.flatten(), ..made });
         at_floor += u32::from(is_fine);
         // Levels are apart by at most two; an adaptive method's by less.

@@ -3,7 +3,8 @@
 use super::super::{bad_input, say};
 use super::Options;
 use crate::precision::{
-    Effort, PROBLEMS, Survey, figures, machine, precision_page, survey, write_rows,
+    ControllerPrecision, Effort, PROBLEMS, Survey, controller_figures, controller_precision,
+    figures, machine, precision_page, survey, write_rows,
 };
 use indicatif::ProgressBar;
 use std::fmt::Write;
@@ -17,17 +18,21 @@ pub(super) fn work_precision(options: &Options) -> ExitCode {
         [] => PROBLEMS.to_vec(),
         asked => asked.iter().map(String::as_str).collect(),
     };
-    let made = find(&names, options)
-        .and_then(|surveys| Ok((write_files(&options.out, &surveys)?, surveys)));
+    let made = find(&names, options).and_then(|surveys| {
+        let controller = controller_precision().map_err(|error| error.to_string())?;
+        Ok((write_files(&options.out, &surveys, &controller)?, surveys, controller))
+    });
     match made {
-        Ok((files, surveys)) => {
+        Ok((files, surveys, controller)) => {
             if options.json {
                 let document = serde_json::json!({
-                    "chart": "work-precision", "machine": machine(), "surveys": surveys, "files": files,
+                    "chart": "work-precision", "machine": machine(), "surveys": surveys,
+                    "controller": controller, "files": files,
                 });
                 say(&format!("{document:#}\n"));
             } else {
                 say(&text(&surveys));
+                say(&controller_text(&controller));
                 for file in files.iter().filter(|file| file.extension().is_some_and(|e| e != "svg"))
                 {
                     say(&format!("written: {}\n", file.display()));
@@ -60,7 +65,11 @@ fn find(names: &[&str], options: &Options) -> Result<Vec<Survey>, String> {
     all
 }
 
-fn write_files(folder: &Path, surveys: &[Survey]) -> Result<Vec<PathBuf>, String> {
+fn write_files(
+    folder: &Path,
+    surveys: &[Survey],
+    controller: &ControllerPrecision,
+) -> Result<Vec<PathBuf>, String> {
     let mut files = Vec::new();
     let mut put = |name: String, text: &str| -> Result<(), String> {
         let path = folder.join(name);
@@ -73,9 +82,14 @@ fn write_files(folder: &Path, surveys: &[Survey]) -> Result<Vec<PathBuf>, String
             put(format!("work-precision-{}-{}.svg", survey.problem, figure.name), &figure.svg)?;
         }
     }
-    let page = precision_page(surveys, &machine()).map_err(|error| error.to_string())?;
+    for figure in controller_figures(controller).map_err(|error| error.to_string())? {
+        put(format!("work-precision-controller-{}.svg", figure.name), &figure.svg)?;
+    }
+    let page =
+        precision_page(surveys, controller, &machine()).map_err(|error| error.to_string())?;
     put("work-precision.html".to_owned(), &page)?;
-    let document = serde_json::json!({ "machine": machine(), "surveys": surveys });
+    let document =
+        serde_json::json!({ "machine": machine(), "surveys": surveys, "controller": controller });
     put("work-precision.json".to_owned(), &format!("{document:#}\n"))?;
     let table = folder.join("work-precision.csv");
     write_rows(&table, surveys).map_err(|error| format!("{}: {error}", table.display()))?;
@@ -128,6 +142,34 @@ fn text(surveys: &[Survey]) -> String {
         for omission in &survey.omitted {
             let _ = writeln!(out, "  {:<26}left out: {}", omission.method, omission.reason);
         }
+    }
+    out
+}
+
+fn controller_text(controller: &ControllerPrecision) -> String {
+    let mut out =
+        "\ncontroller, on all states of Experiment 1, against the exact foot in f64\n".to_owned();
+    let number = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.1e}"));
+    let _ = writeln!(
+        out,
+        "  {:<16}{:<8}{:>12}{:>12}{:>9}{:>12}",
+        "feet", "scalar", "worst", "median", "faults", "tick, µs"
+    );
+    for row in &controller.torques {
+        let feet = row.factor.map_or("exact".to_owned(), |factor| format!("{factor:.0e}"));
+        let scalar = format!("{:?}", row.scalar).to_lowercase();
+        let tick = row.tick.map_or("–".to_owned(), |tick| format!("{:.2}", 1e6 * tick.median));
+        let (worst, median) = (number(row.largest), number(row.median));
+        let _ = writeln!(
+            out,
+            "  {feet:<16}{scalar:<8}{worst:>12}{median:>12}{:>9}{tick:>12}",
+            row.faults
+        );
+    }
+    let _ = writeln!(out, "  {:<12}{:>16}{:>20}", "rate, Hz", "position, m", "orientation, rad");
+    for row in &controller.tracking {
+        let (position, orientation) = (number(row.position_m), number(row.orientation_rad));
+        let _ = writeln!(out, "  {:<12.0}{position:>16}{orientation:>20}", row.rate_hz);
     }
     out
 }
