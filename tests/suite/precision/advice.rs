@@ -6,7 +6,7 @@ use surefoot_sim::multibody::ChainJoint;
 use surefoot_sim::precision::{
     Advice, AdviceError, Choice, Contender, Effort, Level, Problem, advise, distance, timed,
 };
-use surefoot_sim::scene::{Integrator, Link, Mechanism, MechanismScene};
+use surefoot_sim::scene::{Flight, Integrator, Link, Mechanism, MechanismScene};
 use surefoot_tests::random_trees::random;
 
 /// Small enough for thirty of them.
@@ -18,6 +18,7 @@ fn scene(seed: u64) -> (MechanismScene, f64) {
     let mechanism = match seed % 3 {
         0 => pendulum(&mut uniform, 1 + (seed / 3) % 3),
         1 => body(&mut uniform),
+        _ if seed % 4 == 1 => biped(&mut uniform),
         _ => chain(&mut uniform, seed / 3),
     };
     let scene = MechanismScene {
@@ -59,10 +60,25 @@ fn chain(uniform: &mut impl FnMut(f64, f64) -> f64, kind: u64) -> Mechanism {
         radius_m: uniform(0.02, 0.08),
         joint: [ChainJoint::Revolute, ChainJoint::Alternating, ChainJoint::Spherical]
             [(kind % 3) as usize],
-        floats: kind % 4 == 1,
+        floats: false,
         bend_deg: uniform(5.0, 35.0),
         gravity_m_s2: 9.81,
     }
+}
+
+/// A tree that floats.
+fn biped(uniform: &mut impl FnMut(f64, f64) -> f64) -> Mechanism {
+    Mechanism::Biped(Box::new(Flight {
+        gravity_m_s2: 9.81,
+        position_m: [0.0; 3],
+        orientation: [1.0, 0.0, 0.0, 0.0],
+        velocity_m_s: [(); 3].map(|()| uniform(-1.0, 1.0)),
+        angular_velocity_rad_s: [(); 3].map(|()| uniform(-1.0, 1.0)),
+        left_leg_deg: [(); 6].map(|()| uniform(-30.0, 30.0)),
+        right_leg_deg: [(); 6].map(|()| uniform(-30.0, 30.0)),
+        left_leg_rates_deg_s: [(); 6].map(|()| uniform(-90.0, 90.0)),
+        right_leg_rates_deg_s: [(); 6].map(|()| uniform(-90.0, 90.0)),
+    }))
 }
 
 fn contender<'a>(problem: &'a Problem, name: &str) -> &'a Contender {

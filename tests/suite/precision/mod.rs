@@ -1,10 +1,11 @@
 //! What accuracy costs: orders, order lost at contact, the same conclusions in every run, and advice.
 
 mod advice;
+mod controller;
 mod orders;
 mod repeats;
 
 use surefoot_sim::precision::Effort;
 
-/// Without times, and with steps as fine as a test can wait for.
-const UNTIMED: Effort = Effort { most_evaluations: 30_000, repeats: 0, timed_s: 0.0 };
+/// The chart's steps, without times.
+const UNTIMED: Effort = Effort { repeats: 0, ..Effort::CHART };

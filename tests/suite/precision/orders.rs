@@ -11,13 +11,15 @@ fn curves(name: &str) -> Vec<Curve> {
     problem.contenders.iter().map(|c| sweep(&problem, c, &exact, &UNTIMED)).collect()
 }
 
-/// All but `unclean` show their order.
-fn assert_orders(name: &str, unclean: &[&str]) {
+/// All show their order; those that `bend` are not yet straight where errors are clean, and come within half
+/// an order, if they have clean errors at all.
+fn assert_orders(name: &str, bend: &[&str]) {
     for curve in curves(name) {
         let Some(order) = curve.order.map(f64::from) else { continue };
         let found = curve.fit.map(|fit| fit.order);
         println!("  {}: {found:.2?}, known {order}", curve.method);
-        if unclean.contains(&curve.method.as_str()) {
+        if bend.contains(&curve.method.as_str()) {
+            assert!(found.is_none_or(|found| (found - order).abs() < 0.5), "{name}: {found:?}");
             continue;
         }
         let found = found.unwrap_or_else(|| panic!("{name}: {} has no slope", curve.method));
@@ -27,11 +29,15 @@ fn assert_orders(name: &str, unclean: &[&str]) {
     }
 }
 
-/// The endpoint rule's error has a term of second order that is large beside the first; constraints that
-/// drift leave Euler's method no error small enough to fit.
+/// The endpoint rule's error has a term of second order that is large beside the first, projection one of
+/// lower order than the method's own; constraints that drift leave Euler's method no error small enough to
+/// fit.
 #[test]
 fn a_turning_body() {
-    assert_orders("rigid-body", &["variational-endpoint", "semi-implicit-euler"]);
+    assert_orders(
+        "rigid-body",
+        &["variational-endpoint", "semi-implicit-euler", "runge-kutta-4-projected"],
+    );
 }
 
 #[test]
