@@ -84,11 +84,11 @@ pub fn reference(problem: &Problem, most_evaluations: u64) -> Result<Reference, 
         });
     };
     let apart = distance(&second.places, &first.places).unwrap_or(f64::INFINITY);
-    if first.apart < apart && apart <= CONFIRMED * second.apart {
+    if first.apart < apart && apart <= CONFIRMED * second.unsteady {
         let checked_by = format!(
-            "{checked_by}, which at its finest step is {apart:.1e} away and changes by {:.1e} from the one \
-             before",
-            second.apart
+            "{checked_by}, which at its finest step is {apart:.1e} away and has changed by {:.1e} in its last \
+             halvings",
+            second.unsteady
         );
         return Ok(Reference {
             places: first.places,
@@ -105,6 +105,8 @@ struct Converged {
     places: Vec<Vec<f64>>,
     /// From the same, half as fine.
     apart: f64,
+    /// The largest such change of the last three: across contacts one may be small by chance.
+    unsteady: f64,
 }
 
 /// Finer and finer until nothing changes any more, or round-off has the last word.
@@ -116,20 +118,28 @@ fn converged(contender: &Contender, span: &Span, most_evaluations: u64) -> Optio
         contender.levels.iter().filter(is_power).copied().collect()
     };
     let mut best: Option<Converged> = None;
+    let mut changes: Vec<f64> = Vec::new();
     for level in doubled {
         let played = contender.runs.play(span, level);
         if played.failure.is_some() {
             continue;
         }
         let Some(last) = &best else {
-            best = Some(Converged { places: played.places, apart: f64::INFINITY });
+            best = Some(Converged {
+                places: played.places,
+                apart: f64::INFINITY,
+                unsteady: f64::INFINITY,
+            });
             continue;
         };
         let Some(apart) = distance(&played.places, &last.places) else { continue };
         if apart > last.apart && last.apart < 1e-6 {
             break;
         }
-        best = Some(Converged { places: played.places, apart });
+        changes.push(apart);
+        let recent = &changes[changes.len().saturating_sub(3)..];
+        let unsteady = recent.iter().copied().fold(0.0, f64::max);
+        best = Some(Converged { places: played.places, apart, unsteady });
         if apart < 1e-14 || 2 * played.evaluations > most_evaluations {
             break;
         }
