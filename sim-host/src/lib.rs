@@ -6,8 +6,9 @@
 //!                 └──► Controller (host f32 or f64)
 //! ```
 //! Beside it stands chapter 2: [`mechanics`] (Lagrangians, discrete and not), [`newton`] (the one
-//! nonlinear solver), [`integrators`], and [`stability`] (how long their steps may be); of chapter 5
-//! [`multibody`]. Scenes of either run by [`mechanism`]; what models of a motion cost is [`parsimony`]'s.
+//! nonlinear solver), [`integrators`], [`stability`] (how long their steps may be) and [`precision`]
+//! (what accuracy costs); of chapter 5 [`multibody`]. Scenes of either run by [`mechanism`]; what models of a
+//! motion cost is [`parsimony`]'s.
 //!
 //! All of it in f64, but for a controller in f32. A plant allocates when it is built, never in a
 //! step.
@@ -25,6 +26,7 @@ pub mod newton;
 pub mod parsimony;
 pub mod picture;
 pub mod plant;
+pub mod precision;
 pub mod record;
 pub mod report;
 pub mod scene;

@@ -6,4 +6,5 @@ mod documents;
 mod dynamics;
 mod mechanics;
 mod multibody;
+mod precision;
 mod spatial;

@@ -1,6 +1,7 @@
 //! Charts as SVG.
 
 mod bars;
+mod log_log;
 mod marks;
 mod mechanism_charts;
 mod run_figures;
@@ -9,6 +10,7 @@ mod time_series;
 mod xy;
 
 pub use bars::{Bar, Bars};
+pub use log_log::{LogLogChart, MarkedCurve};
 pub use marks::marks;
 pub use mechanism_charts::write_mechanism_chart;
 pub use run_figures::{RUN_FIGURES, RunFigure};

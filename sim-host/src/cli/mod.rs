@@ -3,6 +3,7 @@
 //! Results go to stdout, progress and messages to stderr. Exit status: 0 done, 1 the run failed for
 //! a stated reason, 2 bad usage or input.
 
+mod advise;
 mod chart;
 mod controller;
 mod count_steps;
@@ -34,6 +35,8 @@ enum Command {
     /// What `chart parsimony` runs under callgrind
     #[command(hide = true)]
     CountSteps(count_steps::Options),
+    /// Advise on a method and a step for a scene and an accuracy
+    Advise(advise::Options),
     /// List scenes, integrators and robots
     List(list::Options),
 }
@@ -52,6 +55,7 @@ pub fn main() -> ExitCode {
         Some(Command::Reproduce(options)) => reproduce::reproduce(&options),
         Some(Command::Chart(options)) => chart::chart(&options),
         Some(Command::CountSteps(options)) => count_steps::count_steps(&options),
+        Some(Command::Advise(options)) => advise::advise(&options),
         Some(Command::List(options)) => list::list(&options),
     }
 }

@@ -15,7 +15,6 @@ pub struct DormandPrince<S, const N: usize, const C: usize, const U: usize> {
     tolerance: f64,
     x: [f64; N],
     v: [f64; N],
-    evaluations: u64,
     progress: Progress,
 }
 
@@ -26,12 +25,12 @@ impl<S: Lagrangian<N, C>, const N: usize, const C: usize, const U: usize>
     /// each unknown and to 1.
     pub fn new(system: S, tolerance: f64, h: f64, x: [f64; N], v_dot: [f64; N]) -> Self {
         let progress = Progress::new(h);
-        Self { system, tolerance, x, v: v_dot, evaluations: 0, progress }
+        Self { system, tolerance, x, v: v_dot, progress }
     }
 
     /// Evaluations of the differential equations so far.
     pub fn evaluations(&self) -> u64 {
-        self.evaluations
+        self.progress.evaluations
     }
 }
 
@@ -67,7 +66,7 @@ impl<S: Lagrangian<N, C>, const N: usize, const C: usize, const U: usize> Integr
             return Err(lost());
         };
         (self.x, self.v) = (std::array::from_fn(|i| end[i]), std::array::from_fn(|i| end[N + i]));
-        self.evaluations += solution.evals.function as u64;
+        self.progress.evaluated(solution.evals.function as u64);
         self.progress.advance();
         Ok(())
     }

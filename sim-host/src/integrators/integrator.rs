@@ -40,6 +40,9 @@ pub struct Progress {
     pub iterations: u64,
     /// Newton iterations of the step that took most.
     pub most_iterations: u32,
+    /// Evaluations of residuals, or of the differential equations for methods on those.
+    #[serde(default)]
+    pub evaluations: u64,
     /// Largest residual left, relative to its terms.
     pub residual: f64,
     /// Steps that had to be made in shorter ones.
@@ -55,6 +58,7 @@ impl Progress {
             steps: 0,
             iterations: 0,
             most_iterations: 0,
+            evaluations: 0,
             residual: 0.0,
             split_steps: 0,
         }
@@ -79,10 +83,16 @@ impl Progress {
 
     /// A step's equations have been solved, or a part of them.
     pub(super) fn solved<T, const U: usize, D>(&mut self, root: &Root<T, U, D>) {
+        self.evaluated(u64::from(root.evaluations));
         self.iterated(root.iterations, root.residual);
     }
 
-    /// The same by a solver of one's own.
+    /// Equations have been evaluated so many times.
+    pub(crate) fn evaluated(&mut self, times: u64) {
+        self.evaluations += times;
+    }
+
+    /// The same by a solver of one's own, without its evaluations.
     pub(crate) fn iterated(&mut self, iterations: u32, residual: f64) {
         self.iterations += u64::from(iterations);
         self.most_iterations = self.most_iterations.max(iterations);

@@ -30,6 +30,7 @@ pub use rattle::Rattle;
 pub use runge_kutta::RungeKutta;
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use shake::{Form, Shake};
+pub(crate) use start::ADAPTIVE_TOLERANCE;
 pub use start::{Motion, StartError, start_free_body, start_lagrangian, start_natural};
 pub use step_error::{StepError, StepFailure};
 pub use variational::Variational;

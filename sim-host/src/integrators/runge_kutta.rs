@@ -58,6 +58,7 @@ impl<S: Lagrangian<N, C>, D: Scalar, const N: usize, const C: usize, const U: us
             return Err(progress.error(NewtonFailure::NotFinite));
         }
         let mut after = *progress;
+        after.evaluated(4);
         if *projects {
             (x, v) = projected::<_, D, N, C, U>(system, x, v, &mut after)?;
         }

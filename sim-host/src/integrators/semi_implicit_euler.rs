@@ -37,6 +37,7 @@ impl<S: Lagrangian<N, C>, D: Scalar, const N: usize, const C: usize, const U: us
             return Err(progress.error(NewtonFailure::NotFinite));
         }
         (self.x, self.v) = (x, v);
+        self.progress.evaluated(1);
         self.progress.advance();
         Ok(())
     }

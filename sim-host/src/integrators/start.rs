@@ -56,7 +56,7 @@ pub enum StartError {
 /// Constraints, and their rates, that count as satisfied, relative to their terms.
 const ON_MANIFOLD: f64 = 1e-9;
 /// Tolerance of [`Method::DormandPrince8`].
-const ADAPTIVE_TOLERANCE: f64 = 1e-12;
+pub(crate) const ADAPTIVE_TOLERANCE: f64 = 1e-12;
 
 /// Starts any method that takes a general Lagrangian.
 ///

@@ -4,5 +4,5 @@ mod merged;
 mod moving;
 mod run;
 
-pub use moving::{Moving, StartFailure, start};
+pub use moving::{Moving, StartFailure, start, start_bodies, start_within};
 pub use run::{MechanismRun, MechanismSample, run, run_from};

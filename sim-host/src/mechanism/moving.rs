@@ -2,7 +2,10 @@
 
 use super::merged::without_fixed_joints;
 use crate::contact::ContactPoint;
-use crate::integrators::{Motion, Progress, StartError, StepError, start_free_body, start_natural};
+use crate::integrators::{
+    ADAPTIVE_TOLERANCE, DormandPrince, Method, Motion, Progress, StartError, StepError,
+    start_free_body, start_natural,
+};
 use crate::mechanics::systems::{FreeRigidBody, Pendulum, PolarAngles};
 use crate::mechanics::{Chart, Lagrangian, jacobian};
 use crate::multibody::{Chain, Checkpoint, Simulation, SystemError};
@@ -10,6 +13,7 @@ use crate::plant::StepFailure;
 use crate::scene::{BuildError, Link, Mechanism, MechanismScene};
 use crate::stability::{Rates, forecast};
 use num_dual::Dual64;
+use std::cell::LazyCell;
 
 /// A mechanism on its way.
 pub trait Moving {
@@ -64,8 +68,11 @@ struct Moved<S, const N: usize, const C: usize> {
     system: S,
     motion: Motion<N>,
     momentum: fn(&S, &[f64; N], &[f64; N]) -> Vec<f64>,
-    forecast_s: Option<f64>,
+    forecast_s: Forecast,
 }
+
+/// Asked for by few, and made from a motion of its own.
+type Forecast = LazyCell<Option<f64>, Box<dyn FnOnce() -> Option<f64>>>;
 
 impl<S: Lagrangian<N, C>, const N: usize, const C: usize> Moving for Moved<S, N, C> {
     fn step(&mut self) -> Result<(), StepError> {
@@ -88,7 +95,7 @@ impl<S: Lagrangian<N, C>, const N: usize, const C: usize> Moving for Moved<S, N,
     }
 
     fn forecast_s(&mut self) -> Option<f64> {
-        self.forecast_s
+        *self.forecast_s
     }
 
     fn unknowns(&self) -> usize {
@@ -168,6 +175,17 @@ pub enum StartFailure {
 /// # Errors
 /// A [`StartFailure`].
 pub fn start(scene: &MechanismScene) -> Result<Box<dyn Moving>, StartFailure> {
+    start_within(scene, ADAPTIVE_TOLERANCE)
+}
+
+/// The same, with the tolerance that [`Method::DormandPrince8`] is to keep.
+///
+/// # Errors
+/// A [`StartFailure`].
+pub fn start_within(
+    scene: &MechanismScene,
+    tolerance: f64,
+) -> Result<Box<dyn Moving>, StartFailure> {
     match &scene.mechanism {
         Mechanism::RigidBody { inertia_kg_m2, orientation, angular_velocity_rad_s } => {
             let body = FreeRigidBody { inertia: *inertia_kg_m2 };
@@ -176,20 +194,50 @@ pub fn start(scene: &MechanismScene) -> Result<Box<dyn Moving>, StartFailure> {
             let q = orientation.map(|q| q / norm);
             let q_dot = FreeRigidBody::rate(&q, angular_velocity_rad_s);
             let (method, h) = (scene.integrator.name, scene.integrator.step_s);
-            let rates = Rates::along_motion::<_, 4, 1, 5>(&body, q, q_dot, scene.duration_s);
+            let duration_s = scene.duration_s;
+            let mut motion = start_free_body(method, body, h, q, q_dot)?;
+            if method == Method::DormandPrince8 {
+                motion = Box::new(DormandPrince::<_, 4, 1, 5>::new(body, tolerance, h, q, q_dot));
+            }
             Ok(Box::new(Moved::<_, 4, 1> {
                 system: body,
-                motion: start_free_body(method, body, h, q, q_dot)?,
+                motion,
                 // For a step of no length the discrete momentum is the continuous one.
                 momentum: |body, q, v| body.discrete_momentum(q, v, 0.0).to_vec(),
-                forecast_s: forecast(method, &rates),
+                forecast_s: LazyCell::new(Box::new(move || {
+                    let rates = Rates::along_motion::<_, 4, 1, 5>(&body, q, q_dot, duration_s);
+                    forecast(method, &rates)
+                })),
             }))
         }
+        Mechanism::Pendulum { gravity_m_s2, links } => match links.len() {
+            1 => pendulum::<1, 2, 3, 4>(scene, tolerance, *gravity_m_s2, links),
+            2 => pendulum::<2, 4, 6, 8>(scene, tolerance, *gravity_m_s2, links),
+            3 => pendulum::<3, 6, 9, 12>(scene, tolerance, *gravity_m_s2, links),
+            // The scene's check allows no more.
+            _ => pendulum::<4, 8, 12, 16>(scene, tolerance, *gravity_m_s2, links),
+        },
         Mechanism::Multibody(bodies) => {
             let torques: Vec<f64> = bodies.bodies.iter().map(|body| body.torque).collect();
-            Ok(without_fixed_joints(bodies.start(scene.integrator.step_s)?, &torques)?)
+            Ok(without_fixed_joints(start_bodies(scene)?, &torques)?)
         }
-        Mechanism::Biped(flight) => Ok(Box::new(flight.start(scene.integrator.step_s)?)),
+        Mechanism::Biped(_) | Mechanism::Chain { .. } => Ok(Box::new(start_bodies(scene)?)),
+    }
+}
+
+/// Starts a scene of bodies and joints.
+///
+/// # Errors
+/// A [`StartFailure`]; [`StartError::NotFor`] for the mechanisms of chapter 2, which are none.
+pub fn start_bodies(scene: &MechanismScene) -> Result<Simulation, StartFailure> {
+    let h = scene.integrator.step_s;
+    match &scene.mechanism {
+        Mechanism::RigidBody { .. } | Mechanism::Pendulum { .. } => {
+            let (method, takes) = (scene.integrator.name, "coordinates of its own");
+            Err(StartError::NotFor { method, takes }.into())
+        }
+        Mechanism::Multibody(bodies) => Ok(bodies.start(h)?),
+        Mechanism::Biped(flight) => Ok(flight.start(h)?),
         Mechanism::Chain {
             links,
             mass_kg,
@@ -210,22 +258,15 @@ pub fn start(scene: &MechanismScene) -> Result<Box<dyn Moving>, StartFailure> {
                 gravity: *gravity_m_s2,
             };
             let (states, still) = (chain.bent(bend_deg.to_radians()), vec![[0.0; 7]; *links]);
-            let h = scene.integrator.step_s;
-            Ok(Box::new(Simulation::new(chain.system()?, h, &states, &still)?))
+            Ok(Simulation::new(chain.system()?, h, &states, &still)?)
         }
-        Mechanism::Pendulum { gravity_m_s2, links } => match links.len() {
-            1 => pendulum::<1, 2, 3, 4>(scene, *gravity_m_s2, links),
-            2 => pendulum::<2, 4, 6, 8>(scene, *gravity_m_s2, links),
-            3 => pendulum::<3, 6, 9, 12>(scene, *gravity_m_s2, links),
-            // The scene's check allows no more.
-            _ => pendulum::<4, 8, 12, 16>(scene, *gravity_m_s2, links),
-        },
     }
 }
 
 /// `L` links, with `M` angles, `N` coordinates, and `U` unknowns.
 fn pendulum<const L: usize, const M: usize, const N: usize, const U: usize>(
     scene: &MechanismScene,
+    tolerance: f64,
     gravity: f64,
     links: &[Link],
 ) -> Result<Box<dyn Moving>, StartFailure> {
@@ -241,11 +282,18 @@ fn pendulum<const L: usize, const M: usize, const N: usize, const U: usize>(
     let (x, slope) = jacobian(&angles, |q| chart.embed(q));
     let v: [f64; N] = slope.map(|row| row.iter().enumerate().map(|(k, s)| s * rate(k)).sum());
     let (method, h) = (scene.integrator.name, scene.integrator.step_s);
-    let rates = Rates::along_motion::<_, N, L, U>(&system, x, v, scene.duration_s);
+    let duration_s = scene.duration_s;
+    let mut motion = start_natural::<_, f64, N, L, U>(method, system, h, x, v)?;
+    if method == Method::DormandPrince8 {
+        motion = Box::new(DormandPrince::<_, N, L, U>::new(system, tolerance, h, x, v));
+    }
     Ok(Box::new(Moved::<_, N, L> {
         system,
-        motion: start_natural::<_, f64, N, L, U>(method, system, h, x, v)?,
+        motion,
         momentum: |system, x, v| vec![system.vertical_momentum(x, v)],
-        forecast_s: forecast(method, &rates),
+        forecast_s: LazyCell::new(Box::new(move || {
+            let rates = Rates::along_motion::<_, N, L, U>(&system, x, v, duration_s);
+            forecast(method, &rates)
+        })),
     }))
 }

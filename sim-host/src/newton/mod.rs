@@ -25,6 +25,8 @@ pub struct Root<T, const U: usize, D = f64> {
     pub x: [D; U],
     /// Newton steps made.
     pub iterations: u32,
+    /// Evaluations of the equations, those of rejected steps too.
+    pub evaluations: u32,
     /// Largest residual there, in units of the scale.
     pub residual: f64,
     /// The equations there.
@@ -84,13 +86,15 @@ pub fn solve<D: Scalar, T, const U: usize>(
     mut evaluate: impl FnMut(&[D; U]) -> Evaluation<T, U, D>,
 ) -> Result<Root<T, U, D>, NewtonFailure> {
     let mut at = evaluate(&x);
+    let mut evaluations = 1;
     let mut error = size(&at.residual, scale);
     for iterations in 0..=MOST_ITERATIONS {
         if !error.is_finite() {
             return Err(NewtonFailure::NotFinite);
         }
         if error <= ROUND_OFF {
-            return with_derivatives(Root { x, iterations, residual: error, at }, evaluate);
+            let root = Root { x, iterations, evaluations, residual: error, at };
+            return with_derivatives(root, evaluate);
         }
         if iterations == MOST_ITERATIONS {
             break;
@@ -101,6 +105,7 @@ pub fn solve<D: Scalar, T, const U: usize>(
         loop {
             let trial: [D; U] = std::array::from_fn(|i| x[i] - step[i] * share);
             let at_trial = evaluate(&trial);
+            evaluations += 1;
             let trial_error = size(&at_trial.residual, scale);
             // Sufficient decrease; NaN is none.
             if trial_error <= (1.0 - 1e-4 * share) * error {
@@ -109,7 +114,8 @@ pub fn solve<D: Scalar, T, const U: usize>(
             }
             // Near a root round-off has the last word.
             if error <= TOLERANCE {
-                return with_derivatives(Root { x, iterations, residual: error, at }, evaluate);
+                let root = Root { x, iterations, evaluations, residual: error, at };
+                return with_derivatives(root, evaluate);
             }
             if halvings == MOST_HALVINGS {
                 return Err(NewtonFailure::NoRootNearby { residual: error });
@@ -149,6 +155,7 @@ fn with_derivatives<D: Scalar, T, const U: usize>(
             *x -= step - step.re();
         }
         root.at = evaluate(&root.x);
+        root.evaluations += 1;
     }
     Ok(root)
 }

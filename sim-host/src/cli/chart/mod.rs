@@ -3,6 +3,7 @@
 mod limits;
 mod limits_table;
 mod parsimony;
+mod precision;
 mod steps;
 
 use crate::stability::loop_limits::Quantity;
@@ -23,9 +24,12 @@ pub struct Options {
     /// Of stability, with `--scene`: only this limit; may be given more than once
     #[arg(long, value_enum, requires = "scene")]
     only: Vec<Quantity>,
-    /// Of stability, with `--scene`: forget what an earlier call has found
-    #[arg(long, requires = "scene")]
+    /// Forget what an earlier call has found
+    #[arg(long)]
     fresh: bool,
+    /// Of `work-precision`: only this problem; may be given more than once
+    #[arg(long)]
+    problem: Vec<String>,
     /// Where the tables go
     #[arg(long, default_value = "out/chart")]
     out: PathBuf,
@@ -42,6 +46,10 @@ enum What {
     Stability,
     /// What models of different size cost for one motion, and how far they are off
     Parsimony,
+    /// Error against computing time, step and evaluations, of each method on each problem
+    WorkPrecision,
+    /// Everything that needs no scene: half an hour at most
+    All,
 }
 
 /// Charts.
@@ -50,5 +58,12 @@ pub fn chart(options: &Options) -> ExitCode {
         (What::Stability, None) => steps::scan_steps(options),
         (What::Stability, Some(scene)) => limits::find_limits(scene, options),
         (What::Parsimony, _) => parsimony::chart_parsimony(options),
+        (What::WorkPrecision, _) => precision::work_precision(options),
+        (What::All, _) => {
+            let charts = [steps::scan_steps, precision::work_precision, parsimony::chart_parsimony];
+            let failed =
+                charts.map(|chart| chart(options)).into_iter().find(|c| *c != ExitCode::SUCCESS);
+            failed.unwrap_or(ExitCode::SUCCESS)
+        }
     }
 }

@@ -215,6 +215,7 @@ impl ConstrainedSimulation {
     /// Residual (5.11) and Jacobian (5.13) at the trial, into `equations`; largest residual relative to
     /// its terms.
     fn evaluate(&mut self) -> f64 {
+        self.progress.evaluated(1);
         let h = self.progress.h;
         let gravity = self.system.gravity();
         let mut largest = 0.0_f64;

@@ -18,6 +18,7 @@ mod newton;
 mod node;
 mod rates;
 mod simulation;
+mod stages;
 mod step;
 mod stiffness;
 mod strike;

@@ -39,7 +39,10 @@ impl Simulation {
         let mut result = self.advance(h);
         let mut splits = 0;
         while result.is_err() && self.splits && splits < MOST_SPLITS {
+            // What was evaluated in vain has been evaluated.
+            let evaluations = self.at.progress.evaluations;
             self.restore_saved();
+            self.at.progress.evaluations = evaluations;
             splits += 1;
             let parts = 1_u32 << splits;
             let made = (0..parts).try_for_each(|_| self.advance(h / f64::from(parts)));
@@ -72,13 +75,13 @@ impl Simulation {
         Err(progress.error(StepFailure::TooManySplits { splits }))
     }
 
-    fn restore_saved(&mut self) {
+    pub(super) fn restore_saved(&mut self) {
         self.at.copy_from(&self.saved);
         self.find_places();
     }
 
     /// Goes on by `h`.
-    fn advance(&mut self, h: f64) -> Result<(), StepError> {
+    pub(super) fn advance(&mut self, h: f64) -> Result<(), StepError> {
         let ratio = h / self.at.last_h;
         let [last, before] = &self.at.last;
         for (k, guess) in self.trial.increments.iter_mut().enumerate() {
@@ -188,6 +191,7 @@ impl Simulation {
 
     /// Size of the residuals at the trial, relative to their terms, and the largest error of a loop.
     fn evaluate(&mut self, h: f64) -> f64 {
+        self.at.progress.evaluated(1);
         let coordinates = &self.at.coordinates;
         let step = Step {
             system: &self.system,

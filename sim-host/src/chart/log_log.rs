@@ -1,0 +1,125 @@
+//! Curves on logarithmic axes, each with a colour and a mark of its own.
+
+use super::style::{
+    COLORS, ChartError, LEGEND_WIDTH, Painted, TITLE_HEIGHT, WIDTH, at, drawn, font, points,
+};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+/// A curve with marks at its points.
+#[derive(Clone, Debug)]
+pub struct MarkedCurve {
+    /// Name in the legend.
+    pub name: String,
+    /// Number of its colour and mark: the same for the same thing in all charts. Thirty differ.
+    pub style: usize,
+    /// Points, in order. Those that are not positive have no place on logarithmic axes and are left out.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A chart on logarithmic axes.
+#[derive(Clone, Debug)]
+pub struct LogLogChart {
+    /// Above it.
+    pub title: String,
+    /// Quantity and unit.
+    pub x_axis: String,
+    /// Quantity and unit.
+    pub y_axis: String,
+    /// Curves.
+    pub curves: Vec<MarkedCurve>,
+}
+
+const HEIGHT: u32 = 420;
+/// Half the size of marks, in pixels.
+const MARK: i32 = 4;
+/// Names of methods are longer than those of joints.
+const NAMES_WIDTH: u32 = LEGEND_WIDTH + 60;
+
+impl LogLogChart {
+    /// Draws it as SVG.
+    ///
+    /// # Errors
+    /// [`ChartError`] if it cannot be drawn.
+    pub fn svg(&self) -> Result<String, ChartError> {
+        drawn(&self.title, (WIDTH, HEIGHT + TITLE_HEIGHT), |root| self.paint(root))
+    }
+
+    fn paint(&self, root: &DrawingArea<SVGBackend<'_>, Shift>) -> Painted {
+        let area = root.titled(&self.title, font(18))?;
+        let (plot, legend) = area.split_horizontally(points(WIDTH - NAMES_WIDTH));
+        let (x, y) = (self.range(|point| point.0), self.range(|point| point.1));
+        let axes = ((x.0..x.1).log_scale(), (y.0..y.1).log_scale());
+        let mut chart = ChartBuilder::on(&plot)
+            .margin_left(at(10))
+            .margin_right(at(12))
+            .margin_bottom(at(6))
+            .margin_top(at(8))
+            .x_label_area_size(at(42))
+            .y_label_area_size(at(78))
+            .build_cartesian_2d(axes.0, axes.1)?;
+        chart
+            .configure_mesh()
+            .x_desc(&self.x_axis)
+            .y_desc(&self.y_axis)
+            .x_labels(8)
+            .y_labels(8)
+            .x_label_formatter(&|value| format!("{value:.0e}"))
+            .y_label_formatter(&|value| format!("{value:.0e}"))
+            .label_style(font(13))
+            .axis_desc_style(font(14))
+            .set_all_tick_mark_size(at(5))
+            .bold_line_style(RGBColor(220, 220, 220).stroke_width(points(1)))
+            .axis_style(BLACK.stroke_width(points(1)))
+            .max_light_lines(0)
+            .draw()?;
+        for (place, curve) in self.curves.iter().enumerate() {
+            let color = COLORS[curve.style % COLORS.len()];
+            let style = color.stroke_width(points(2));
+            chart.draw_series(LineSeries::new(curve.shown(), style))?;
+            let y = 30 + 20 * place as i32;
+            let line = vec![(at(2), at(y)), (at(32), at(y))];
+            legend.draw(&PathElement::new(line, style))?;
+            legend.draw(&Text::new(curve.name.as_str(), (at(38), at(y - 7)), font(13)))?;
+            let ends = [(at(17), at(y))];
+            // A macro, as each mark is a type of its own.
+            macro_rules! mark {
+                ($shape:expr) => {{
+                    chart.draw_series(curve.shown().map(|p| EmptyElement::at(p) + $shape))?;
+                    for end in ends {
+                        legend.draw(&(EmptyElement::at(end) + $shape))?;
+                    }
+                }};
+            }
+            let (m, thick) = (at(MARK), color.stroke_width(points(2)));
+            match curve.style % 5 {
+                0 => mark!(Circle::new((0, 0), m, color.filled())),
+                1 => mark!(Rectangle::new([(-m, -m), (m, m)], color.filled())),
+                2 => mark!(Circle::new((0, 0), m + at(1), thick)),
+                3 => mark!(Polygon::new(vec![(-m, m), (m, m), (0, -m)], color.filled())),
+                _ => {
+                    mark!(PathElement::new(vec![(0, -m), (m, 0), (0, m), (-m, 0), (0, -m)], thick))
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whole powers of ten.
+    fn range(&self, of: impl Fn((f64, f64)) -> f64 + Copy) -> (f64, f64) {
+        let values = self.curves.iter().flat_map(MarkedCurve::shown).map(of);
+        let (low, high) =
+            values.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));
+        if low > high {
+            return (0.1, 1.0);
+        }
+        (10_f64.powf(low.log10().floor() - 0.05), 10_f64.powf(high.log10().ceil() + 0.05))
+    }
+}
+
+impl MarkedCurve {
+    fn shown(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let fits = |x: f64| x.is_finite() && x > 0.0;
+        self.points.iter().copied().filter(move |(x, y)| fits(*x) && fits(*y))
+    }
+}

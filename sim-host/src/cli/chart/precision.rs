@@ -1,0 +1,175 @@
+//! `surefoot chart work-precision`
+
+use super::super::{bad_input, say};
+use super::Options;
+use crate::precision::{
+    ControllerPrecision, Effort, PROBLEMS, Survey, controller_figures, controller_precision,
+    figures, machine, precision_page, survey, write_rows,
+};
+use indicatif::ProgressBar;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+/// Charts all problems, or those that are asked for.
+pub(super) fn work_precision(options: &Options) -> ExitCode {
+    let names: Vec<&str> = match options.problem.as_slice() {
+        [] => PROBLEMS.to_vec(),
+        asked => asked.iter().map(String::as_str).collect(),
+    };
+    let made = find(&names, options).and_then(|surveys| {
+        let controller = controller_precision().map_err(|error| error.to_string())?;
+        Ok((write_files(&options.out, &surveys, &controller)?, surveys, controller))
+    });
+    match made {
+        Ok((files, surveys, controller)) => {
+            if options.json {
+                let document = serde_json::json!({
+                    "chart": "work-precision", "machine": machine(), "surveys": surveys,
+                    "controller": controller, "files": files,
+                });
+                say(&format!("{document:#}\n"));
+            } else {
+                say(&text(&surveys));
+                say(&controller_text(&controller));
+                for file in files.iter().filter(|file| file.extension().is_some_and(|e| e != "svg"))
+                {
+                    say(&format!("written: {}\n", file.display()));
+                }
+            }
+            ExitCode::SUCCESS
+        }
+        Err(message) => bad_input(&message, options.json),
+    }
+}
+
+fn find(names: &[&str], options: &Options) -> Result<Vec<Survey>, String> {
+    let folder = options.out.join("work-precision");
+    if options.fresh && folder.exists() {
+        std::fs::remove_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    }
+    let program = std::env::current_exe()
+        .and_then(std::fs::read)
+        .map_err(|error| format!("this program cannot read itself: {error}"))?;
+    let bar = ProgressBar::new_spinner();
+    bar.enable_steady_tick(Duration::from_millis(500));
+    let each = names.iter().enumerate().map(|(k, name)| {
+        bar.set_message(format!("{name} ({} of {})", k + 1, names.len()));
+        let done =
+            |part: &str| bar.set_message(format!("{name} ({} of {}): {part}", k + 1, names.len()));
+        survey(name, &Effort::CHART, &folder, &program, &done).map_err(|error| error.to_string())
+    });
+    let all = each.collect();
+    bar.finish_and_clear();
+    all
+}
+
+fn write_files(
+    folder: &Path,
+    surveys: &[Survey],
+    controller: &ControllerPrecision,
+) -> Result<Vec<PathBuf>, String> {
+    let mut files = Vec::new();
+    let mut put = |name: String, text: &str| -> Result<(), String> {
+        let path = folder.join(name);
+        std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+        files.push(path);
+        Ok(())
+    };
+    for survey in surveys {
+        for figure in figures(survey).map_err(|error| error.to_string())? {
+            put(format!("work-precision-{}-{}.svg", survey.problem, figure.name), &figure.svg)?;
+        }
+    }
+    for figure in controller_figures(controller).map_err(|error| error.to_string())? {
+        put(format!("work-precision-controller-{}.svg", figure.name), &figure.svg)?;
+    }
+    let page =
+        precision_page(surveys, controller, &machine()).map_err(|error| error.to_string())?;
+    put("work-precision.html".to_owned(), &page)?;
+    let document =
+        serde_json::json!({ "machine": machine(), "surveys": surveys, "controller": controller });
+    put("work-precision.json".to_owned(), &format!("{document:#}\n"))?;
+    let table = folder.join("work-precision.csv");
+    write_rows(&table, surveys).map_err(|error| format!("{}: {error}", table.display()))?;
+    files.push(table);
+    Ok(files)
+}
+
+fn text(surveys: &[Survey]) -> String {
+    let mut out = String::new();
+    // Writing to a string cannot fail.
+    let _ = writeln!(out, "{}", machine());
+    for survey in surveys {
+        let _ =
+            writeln!(out, "\n{}: {}, {} s", survey.problem, survey.description, survey.duration_s);
+        let _ = writeln!(
+            out,
+            "reference: {}, checked by {}: {:.1e} apart",
+            survey.reference, survey.checked_by, survey.apart
+        );
+        let _ = writeln!(
+            out,
+            "  {:<26}{:>7}{:>7}{:>11}{:>11}{:>13}{:>12}",
+            "method", "order", "fitted", "step, s", "error", "time, ms/s", "band, J"
+        );
+        for curve in &survey.curves {
+            for (place, m) in curve.measurements.iter().enumerate() {
+                let (name, order, fit) = match place {
+                    0 => (
+                        curve.method.as_str(),
+                        curve.order.map_or("–".to_owned(), |order| order.to_string()),
+                        curve.fit.map_or("–".to_owned(), |fit| format!("{:.2}", fit.order)),
+                    ),
+                    _ => ("", String::new(), String::new()),
+                };
+                let number = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.2e}"));
+                let time = m.time.map_or("–".to_owned(), |time| {
+                    let doubt = if time.is_doubtful() { "~" } else { "" };
+                    format!("{doubt}{:.4}", 1e3 * time.median)
+                });
+                let _ = writeln!(
+                    out,
+                    "  {name:<26}{order:>7}{fit:>7}{:>11.3e}{:>11}{time:>13}{:>12}{}",
+                    m.step_s,
+                    number(m.error),
+                    number(m.energy_band_j),
+                    m.failure.as_ref().map_or(String::new(), |f| format!("  {}", f.reason)),
+                );
+            }
+        }
+        for omission in &survey.omitted {
+            let _ = writeln!(out, "  {:<26}left out: {}", omission.method, omission.reason);
+        }
+    }
+    out
+}
+
+fn controller_text(controller: &ControllerPrecision) -> String {
+    let mut out =
+        "\ncontroller, on all states of Experiment 1, against the exact foot in f64\n".to_owned();
+    let number = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.1e}"));
+    let _ = writeln!(
+        out,
+        "  {:<16}{:<8}{:>12}{:>12}{:>9}{:>12}",
+        "feet", "scalar", "worst", "median", "faults", "tick, µs"
+    );
+    for row in &controller.torques {
+        let feet = row.factor.map_or("exact".to_owned(), |factor| format!("{factor:.0e}"));
+        let scalar = format!("{:?}", row.scalar).to_lowercase();
+        let tick = row.tick.map_or("–".to_owned(), |tick| format!("{:.2}", 1e6 * tick.median));
+        let (worst, median) = (number(row.largest), number(row.median));
+        let _ = writeln!(
+            out,
+            "  {feet:<16}{scalar:<8}{worst:>12}{median:>12}{:>9}{tick:>12}",
+            row.faults
+        );
+    }
+    let _ = writeln!(out, "  {:<12}{:>16}{:>20}", "rate, Hz", "position, m", "orientation, rad");
+    for row in &controller.tracking {
+        let (position, orientation) = (number(row.position_m), number(row.orientation_rad));
+        let _ = writeln!(out, "  {:<12.0}{position:>16}{orientation:>20}", row.rate_hz);
+    }
+    out
+}

@@ -1,0 +1,29 @@
+//! Steps composed of others, forwards and backwards.
+
+use super::simulation::Simulation;
+use crate::integrators::StepError;
+
+impl Simulation {
+    /// One step in stages, each this share of it. A step is symmetric in time as long as nothing touches
+    /// anything, so that the shares of [`crate::integrators::YOSHIDA_4`] make a method of fourth order.
+    ///
+    /// # Errors
+    /// A [`StepError`]; the motion is then where it was. Stages are not made in shorter ones.
+    ///
+    /// # Cost
+    /// A step for each stage.
+    pub fn step_in_stages(&mut self, stages: &[f64]) -> Result<(), StepError> {
+        self.saved.copy_from(&self.at);
+        let h = self.at.progress.h;
+        match stages.iter().try_for_each(|share| self.advance(share * h)) {
+            Ok(()) => {
+                self.at.progress.advance();
+                Ok(())
+            }
+            Err(error) => {
+                self.restore_saved();
+                Err(error)
+            }
+        }
+    }
+}

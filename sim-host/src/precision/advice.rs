@@ -1,0 +1,146 @@
+//! The method and step for a scene and an accuracy, tried out before it is given.
+
+use super::contender::Contender;
+use super::measure::{Level, Measurement};
+use super::problem::{Omission, Problem};
+use super::recommend::{Choice, ranked};
+use super::reference::{NoReference, Reference, reference};
+use super::sweep::{Curve, Effort, measured, sweep, timed};
+use serde::Serialize;
+
+/// An advice.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Advice {
+    /// Which scene.
+    pub problem: String,
+    /// Wanted, relative.
+    pub accuracy: f64,
+    /// What to take.
+    pub choice: Choice,
+    /// What the choice gave when it was tried.
+    pub tried: Measurement,
+    /// The next best methods, quickest first.
+    pub others: Vec<Choice>,
+    /// Methods that are not accurate enough at any step tried.
+    pub too_coarse: Vec<String>,
+    /// Methods that do not take the scene.
+    pub omitted: Vec<Omission>,
+    /// What errors are distances from, and what it was checked by.
+    pub reference: [String; 2],
+    /// How far the two are apart, relative.
+    pub apart: f64,
+}
+
+/// Why there is no advice.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum AdviceError {
+    /// Nothing is known to compare with.
+    #[error(transparent)]
+    Reference(#[from] NoReference),
+    /// The reference is not good enough to tell.
+    #[error(
+        "{problem}: two methods at their best differ by {apart:.1e} of the motion, so that an accuracy of \
+         {accuracy:.1e} cannot be told; ask for less, or for a shorter duration"
+    )]
+    Unsure {
+        /// Which scene.
+        problem: String,
+        /// How far they are apart.
+        apart: f64,
+        /// Wanted.
+        accuracy: f64,
+    },
+    /// No method is accurate enough.
+    #[error(
+        "{problem}: no method reaches {accuracy:.1e} with the steps tried; the best comes to {best:.1e}"
+    )]
+    OutOfReach {
+        /// Which scene.
+        problem: String,
+        /// Wanted.
+        accuracy: f64,
+        /// The least error.
+        best: f64,
+    },
+}
+
+/// The reference must be so much better than what is wanted.
+const SURE: f64 = 10.0;
+/// A choice that misses what is wanted is made finer so often.
+const CORRECTIONS: u32 = 4;
+
+/// Advises on a problem for an accuracy, relative to how far the motion reaches.
+///
+/// # Errors
+/// An [`AdviceError`].
+///
+/// # Cost
+/// All methods at some twenty steps: seconds to a minute.
+pub fn advise(problem: &Problem, accuracy: f64, effort: &Effort) -> Result<Advice, AdviceError> {
+    let exact = reference(problem, effort.most_evaluations)?;
+    if !(SURE * exact.apart <= accuracy) {
+        let (problem, apart) = (problem.name.clone(), exact.apart);
+        return Err(AdviceError::Unsure { problem, apart, accuracy });
+    }
+    let curves: Vec<Curve> = problem
+        .contenders
+        .iter()
+        .map(|contender| sweep(problem, contender, &exact, effort))
+        .collect();
+    let all = ranked(&curves, accuracy);
+    let is_ranked = |name: &String| all.iter().any(|choice| choice.method == *name);
+    let too_coarse = curves.iter().map(|c| c.method.clone()).filter(|n| !is_ranked(n)).collect();
+    for (place, choice) in all.iter().enumerate() {
+        let contender = problem.contenders.iter().find(|c| c.name == choice.method);
+        let Some(contender) = contender else { continue };
+        let Some((level, tried)) = tried(problem, contender, choice, &exact, accuracy) else {
+            continue;
+        };
+        let time = timed(problem, contender, level, effort);
+        let mut others = all.clone();
+        others.remove(place);
+        return Ok(Advice {
+            problem: problem.name.clone(),
+            accuracy,
+            choice: Choice { step_s: tried.step_s, ..choice.clone() },
+            tried: Measurement { time, ..tried },
+            others,
+            too_coarse,
+            omitted: problem.omitted.clone(),
+            reference: [exact.by, exact.checked_by],
+            apart: exact.apart,
+        });
+    }
+    let errors = curves.iter().flat_map(|curve| &curve.measurements).filter_map(|m| m.error);
+    let best = errors.fold(f64::INFINITY, f64::min);
+    Err(AdviceError::OutOfReach { problem: problem.name.clone(), accuracy, best })
+}
+
+/// The choice as whole steps, made finer until it is what was wanted.
+fn tried(
+    problem: &Problem,
+    contender: &Contender,
+    choice: &Choice,
+    exact: &Reference,
+    accuracy: f64,
+) -> Option<(Level, Measurement)> {
+    let coarsest = Level { divisions: 1, tolerance: choice.tolerance };
+    let whole = contender.runs.step_s(&problem.span, coarsest) / choice.step_s;
+    let mut level = coarsest;
+    if choice.tolerance.is_none() {
+        // A whole number reads as a little more than it is.
+        level.divisions = (whole - 1e-6).ceil().max(1.0) as u32;
+    }
+    for _ in 0..=CORRECTIONS {
+        let played = contender.runs.play(&problem.span, level);
+        let made = measured(problem, contender, level, played, exact);
+        if made.failure.is_none() && made.error.is_some_and(|error| error <= accuracy) {
+            return Some((level, made));
+        }
+        match &mut level.tolerance {
+            Some(tolerance) => *tolerance *= 0.5,
+            None => level.divisions = level.divisions.saturating_mul(5).div_ceil(4),
+        }
+    }
+    None
+}

@@ -1,0 +1,83 @@
+//! A method on a problem.
+
+use super::course::Course;
+use super::measure::{Level, Played, Span, play, time};
+use crate::mechanism::StartFailure;
+
+/// Starts a motion with a step (s), and the tolerance that a method which chooses its steps is to keep.
+pub type Start = Box<dyn Fn(f64, f64) -> Result<Box<dyn Course>, StartFailure> + Send + Sync>;
+
+/// Plays or times a whole run at a level.
+pub trait Runs: Send + Sync {
+    /// The step at a level, s.
+    fn step_s(&self, span: &Span, level: Level) -> f64;
+
+    /// Plays it.
+    fn play(&self, span: &Span, level: Level) -> Played;
+
+    /// Seconds that its steps take; none where it fails.
+    fn time(&self, span: &Span, level: Level) -> Option<f64>;
+}
+
+/// A method on a problem.
+pub struct Contender {
+    /// Its name.
+    pub name: String,
+    /// Order of its trajectories' error, where it has one.
+    pub order: Option<u32>,
+    /// How finely it can be made, coarsest first.
+    pub levels: Vec<Level>,
+    /// Runs it.
+    pub runs: Box<dyn Runs>,
+}
+
+impl Contender {
+    /// A method that makes steps from a start.
+    pub fn stepping(name: impl Into<String>, order: Option<u32>, start: Start) -> Self {
+        let levels = divisions().map(|divisions| Level { divisions, tolerance: None }).collect();
+        Self { name: name.into(), order, levels, runs: Box::new(Stepping(start)) }
+    }
+
+    /// The same of a method that chooses its steps within a tolerance.
+    pub fn adaptive(name: impl Into<String>, start: Start) -> Self {
+        let level = |tenths: i32| Level {
+            divisions: 1,
+            tolerance: Some(10_f64.powf(-0.5 * f64::from(tenths))),
+        };
+        let levels = (2..=26).map(level).collect();
+        Self { name: name.into(), order: None, levels, runs: Box::new(Stepping(start)) }
+    }
+}
+
+/// 1, 2, 3, 4, 6, 8, 12, …: doubled, with the halves between.
+fn divisions() -> impl Iterator<Item = u32> {
+    [1].into_iter().chain((0..20).flat_map(|power| [2 << power, 3 << power]))
+}
+
+struct Stepping(Start);
+
+/// Without one, the tolerance of a run whose error is to be round-off.
+const CLOSE: f64 = 1e-12;
+
+impl Stepping {
+    fn start(&self, span: &Span, level: Level) -> Result<Box<dyn Course>, StartFailure> {
+        (self.0)(self.step_s(span, level), level.tolerance.unwrap_or(CLOSE))
+    }
+}
+
+impl Runs for Stepping {
+    fn step_s(&self, span: &Span, level: Level) -> f64 {
+        span.duration_s / f64::from(span.samples) / f64::from(level.divisions)
+    }
+
+    fn play(&self, span: &Span, level: Level) -> Played {
+        match self.start(span, level) {
+            Ok(mut course) => play(course.as_mut(), span, level.divisions),
+            Err(failure) => Played { failure: Some(failure.into()), ..Played::default() },
+        }
+    }
+
+    fn time(&self, span: &Span, level: Level) -> Option<f64> {
+        time(self.start(span, level).ok()?.as_mut(), span, level.divisions)
+    }
+}

@@ -1,0 +1,155 @@
+//! The controller's precision: errors of torques in f32 and f64, with feet held exactly or by a big base, and
+//! of the motion at lower rates.
+
+use super::measure::Timing;
+use crate::closed_loop::{Controller, Scalar, controller, run};
+use crate::plant::PlantState;
+use crate::scene::{Scene, SceneError, Workspace, load};
+use cpu_time::ThreadTime;
+use serde::Serialize;
+use std::hint::black_box;
+use surefoot::spatial::Quaternion;
+
+/// A form of the controller in one precision, on all states of Experiment 1.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TorqueError {
+    /// Times that a foot is as heavy as the central body; none for feet held exactly.
+    pub factor: Option<f64>,
+    /// Precision.
+    pub scalar: Scalar,
+    /// Largest error of a torque over the largest torque; none where some tick gave none.
+    pub largest: Option<f64>,
+    /// Half of the ticks' largest errors are below this.
+    pub median: Option<f64>,
+    /// Ticks that gave no torques.
+    pub faults: usize,
+    /// A tick's computing time on this machine, s.
+    pub tick: Option<Timing>,
+}
+
+/// What a lower rate does to the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct TrackingError {
+    /// Ticks a second.
+    pub rate_hz: f64,
+    /// Root mean square distance of the central body from where [`FASTEST_HZ`] has it, m; none where the robot
+    /// does not stand to the end.
+    pub position_m: Option<f64>,
+    /// The same of its orientation, rad.
+    pub orientation_rad: Option<f64>,
+}
+
+/// All of it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ControllerPrecision {
+    /// Of torques; the reference is the exact foot in f64, whose own round-off is some 1e-15.
+    pub torques: Vec<TorqueError>,
+    /// Of the motion.
+    pub tracking: Vec<TrackingError>,
+}
+
+/// The rate that stands for a controller without delay.
+pub const FASTEST_HZ: f64 = 8000.0;
+/// Rates are this divided by whole numbers, so that all have the same steps.
+const DIVISORS: [u32; 10] = [2, 4, 8, 16, 32, 64, 80, 100, 125, 160];
+/// Powers of ten.
+const FACTORS: std::ops::RangeInclusive<i32> = 2..=9;
+/// Passes through all states that are timed.
+const PASSES: usize = 15;
+
+/// Measures it on Experiment 1.
+///
+/// # Errors
+/// [`SceneError`] where the built-in scene is none.
+pub fn controller_precision() -> Result<ControllerPrecision, SceneError> {
+    let scene = load("experiment-1")?;
+    let exact = run(&scene, controller(&scene, Scalar::F64).as_mut(), &mut |_| {});
+    let states: Vec<PlantState> = exact
+        .samples
+        .iter()
+        .map(|sample| PlantState { positions: sample.positions, velocities: sample.velocities })
+        .collect();
+    let mut reference = controller(&scene, Scalar::F64);
+    let wanted: Vec<Option<[f64; 12]>> = torques(reference.as_mut(), &states);
+    let forms = std::iter::once(None).chain(FACTORS.map(|power| Some(10_f64.powi(power))));
+    let torques = forms
+        .flat_map(|factor| [Scalar::F64, Scalar::F32].map(|scalar| (factor, scalar)))
+        .map(|(factor, scalar)| torque_error(&scene, factor, scalar, &states, &wanted))
+        .collect();
+    Ok(ControllerPrecision { torques, tracking: tracking(&scene) })
+}
+
+fn torques(controller: &mut dyn Controller, states: &[PlantState]) -> Vec<Option<[f64; 12]>> {
+    states.iter().map(|state| Some(controller.tick(state).ok()?.torques)).collect()
+}
+
+fn torque_error(
+    scene: &Scene,
+    factor: Option<f64>,
+    scalar: Scalar,
+    states: &[PlantState],
+    wanted: &[Option<[f64; 12]>],
+) -> TorqueError {
+    let mut scene = scene.clone();
+    scene.controller.workspace = factor.map_or(Workspace::FixedFoot, Workspace::BigBase);
+    let mut controller = controller(&scene, scalar);
+    let given = torques(controller.as_mut(), states);
+    let scale = wanted.iter().flatten().flatten().fold(0.0_f64, |m, torque| m.max(torque.abs()));
+    let pairs = given.iter().zip(wanted).filter_map(|(a, b)| a.as_ref().zip(b.as_ref()));
+    let mut errors: Vec<f64> = pairs
+        .map(|(a, b)| a.iter().zip(b).fold(0.0_f64, |m, (x, y)| m.max((x - y).abs())) / scale)
+        .collect();
+    errors.sort_by(f64::total_cmp);
+    let faults = given.iter().filter(|torques| torques.is_none()).count();
+    let times = (0..PASSES).map(|_| {
+        let begun = ThreadTime::now();
+        for state in states {
+            // A fault takes its time too.
+            let _ = black_box(controller.tick(black_box(state)));
+        }
+        begun.elapsed().as_secs_f64() / states.len() as f64
+    });
+    TorqueError {
+        factor,
+        scalar,
+        largest: errors.last().copied().filter(|_| faults == 0),
+        median: errors.get(errors.len() / 2).copied(),
+        faults,
+        tick: Timing::of(times.collect()),
+    }
+}
+
+fn tracking(scene: &Scene) -> Vec<TrackingError> {
+    // Compared at 50 Hz, which divides all rates.
+    const COMPARED_HZ: f64 = 50.0;
+    let places = |rate_hz: f64| -> Option<Vec<[f64; 19]>> {
+        let mut scene = scene.clone();
+        scene.controller.rate_hz = rate_hz;
+        scene.integrator.step_s = 1.0 / FASTEST_HZ;
+        let run = run(&scene, controller(&scene, Scalar::F64).as_mut(), &mut |_| {});
+        let every = (rate_hz / COMPARED_HZ).round() as usize;
+        let compared = run.samples.iter().step_by(every).map(|sample| sample.positions);
+        run.failure.is_none().then(|| compared.collect())
+    };
+    let fastest = places(FASTEST_HZ);
+    let compared = DIVISORS.map(|divisor| {
+        let rate_hz = FASTEST_HZ / f64::from(divisor);
+        let both = places(rate_hz).zip(fastest.as_ref());
+        let root_mean_square = |apart: fn(&[f64; 19], &[f64; 19]) -> f64| {
+            let (own, fast) = both.as_ref()?;
+            let sum: f64 = own.iter().zip(fast.iter()).map(|(a, b)| apart(a, b).powi(2)).sum();
+            Some((sum / own.len() as f64).sqrt())
+        };
+        TrackingError {
+            rate_hz,
+            position_m: root_mean_square(|a, b| {
+                (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+            }),
+            orientation_rad: root_mean_square(|a, b| {
+                let q = |p: &[f64; 19]| Quaternion::from_array([p[3], p[4], p[5], p[6]]);
+                2.0 * q(a).conjugate().product(q(b)).v.norm().min(1.0).asin()
+            }),
+        }
+    });
+    compared.into()
+}

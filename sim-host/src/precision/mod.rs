@@ -1,0 +1,55 @@
+//! What accuracy costs: each method on each problem, from coarse steps to fine ones.
+//!
+//! ```text
+//! scene ─► Problem ─┬► Contender (method) ─ play, time ─► Measurement ─► Curve ─► ranked ─► advice
+//!                   └► Reference: two methods that share nothing ──┘         └► charts, page
+//! ```
+//! The same for the controller: [`controller_precision`], errors of torques and of the motion.
+//!
+//! Errors are distances of places at [`problem::SAMPLES`] times from the reference's, over how far its motion
+//! reaches. All but times is deterministic.
+
+mod advice;
+mod catalogue;
+mod closed_loop;
+mod contender;
+mod controller;
+mod controller_figures;
+mod course;
+mod figures;
+mod measure;
+mod mechanism_contenders;
+mod page;
+mod problem;
+mod recommend;
+mod reference;
+mod sentences;
+mod slope;
+mod survey;
+mod sweep;
+mod table;
+mod touch_down;
+mod tree_contenders;
+mod tree_course;
+mod tree_model;
+
+pub use advice::{Advice, AdviceError, advise};
+pub use catalogue::{CatalogueError, PROBLEMS, problem};
+pub use contender::{Contender, Runs, Start};
+pub use controller::{
+    ControllerPrecision, FASTEST_HZ, TorqueError, TrackingError, controller_precision,
+};
+pub use controller_figures::controller_figures;
+pub use course::{Conserved, Course, Trouble};
+pub use figures::{PrecisionFigure, figures};
+pub use measure::{Failed, Level, Measurement, Played, Span, Timing, distance};
+pub use page::{PrecisionPageFailure, page as precision_page};
+pub use problem::{ClosedForm, Omission, Problem, SAMPLES};
+pub use recommend::{Choice, ERROR_MARGIN, STEP_MARGIN, longest, ranked};
+pub use reference::{NoReference, Reference, reference};
+pub use sentences::{cost, step};
+pub use slope::{Fit, fitted};
+pub use survey::{Survey, SurveyError, survey};
+pub use sweep::{Curve, Effort, measured, sweep, timed};
+pub use table::{machine, write_rows};
+pub use tree_contenders::{AT_MIDPOINTS, WITH_CONSTRAINTS};

@@ -1,0 +1,161 @@
+//! Methods on the differential equations of a tree, in joint coordinates: what most simulators do.
+
+use super::course::{Conserved, Course, Trouble, conserved, landmarks};
+use super::tree_model::{Rates, TreeModel};
+use crate::integrators::Progress;
+use crate::multibody::{BodyState, System};
+use differential_equations::prelude::{ExplicitRungeKutta, IVP};
+use std::cell::Cell;
+use std::sync::Arc;
+use surefoot::dynamics::DynamicsFault;
+
+/// Adaptive steps within a step at most.
+const MOST_ADAPTIVE_STEPS: usize = 100_000;
+
+/// A method on differential equations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TreeMethod {
+    /// Semi-implicit Euler: velocities, then positions along the new ones.
+    SemiImplicitEuler,
+    /// Runge and Kutta's of fourth order.
+    RungeKutta4,
+    /// Dormand and Prince's adaptive one of eighth order, within a tolerance.
+    DormandPrince8(f64),
+}
+
+/// A tree on its way.
+pub struct OfTree {
+    model: Arc<dyn TreeModel>,
+    system: Arc<System>,
+    is_free: bool,
+    method: TreeMethod,
+    positions: Vec<f64>,
+    velocities: Vec<f64>,
+    progress: Progress,
+}
+
+impl OfTree {
+    /// At the model's start. `is_free` where angular momentum is conserved.
+    pub fn new(
+        model: Arc<dyn TreeModel>,
+        system: Arc<System>,
+        is_free: bool,
+        method: TreeMethod,
+        h: f64,
+    ) -> Self {
+        let (positions, velocities) = model.start();
+        let progress = Progress::new(h);
+        Self { model, system, is_free, method, positions, velocities, progress }
+    }
+
+    fn fault(&self, fault: DynamicsFault) -> Trouble {
+        Trouble::Dynamics { time_s: self.progress.time_s, fault }
+    }
+
+    fn rates(&self, x: &[f64], v: &[f64]) -> Result<[Vec<f64>; 2], Trouble> {
+        let (mut positions, mut velocities) = (vec![0.0; x.len()], vec![0.0; v.len()]);
+        let into = Rates { positions: &mut positions, velocities: &mut velocities };
+        self.model.rates(x, v, into).map_err(|fault| self.fault(fault))?;
+        Ok([positions, velocities])
+    }
+
+    fn euler(&mut self) -> Result<(), Trouble> {
+        let h = self.progress.h;
+        let [_, a] = self.rates(&self.positions, &self.velocities)?;
+        let v = moved(&self.velocities, &a, h);
+        let x_dot = self.model.position_rates(&self.positions, &v);
+        self.positions = moved(&self.positions, &x_dot, h);
+        self.velocities = v;
+        self.progress.evaluated(1);
+        Ok(())
+    }
+
+    fn runge_kutta(&mut self) -> Result<(), Trouble> {
+        let h = self.progress.h;
+        let (x, v) = (&self.positions, &self.velocities);
+        let k1 = self.rates(x, v)?;
+        let k2 = self.rates(&moved(x, &k1[0], 0.5 * h), &moved(v, &k1[1], 0.5 * h))?;
+        let k3 = self.rates(&moved(x, &k2[0], 0.5 * h), &moved(v, &k2[1], 0.5 * h))?;
+        let k4 = self.rates(&moved(x, &k3[0], h), &moved(v, &k3[1], h))?;
+        let mean = |part: usize| -> Vec<f64> {
+            let all = k1[part].iter().zip(&k2[part]).zip(&k3[part]).zip(&k4[part]);
+            all.map(|(((a, b), c), d)| (a + 2.0 * (b + c) + d) / 6.0).collect()
+        };
+        let (x, v) = (moved(x, &mean(0), h), moved(v, &mean(1), h));
+        (self.positions, self.velocities) = (x, v);
+        self.progress.evaluated(4);
+        Ok(())
+    }
+
+    fn dormand_prince(&mut self, tolerance: f64) -> Result<(), Trouble> {
+        let split = self.positions.len();
+        let failed: Cell<Option<DynamicsFault>> = Cell::new(None);
+        let model = &self.model;
+        let rates = |_: f64, y: &Vec<f64>, rates: &mut Vec<f64>| {
+            let (positions, velocities) = rates.split_at_mut(split);
+            let into = Rates { positions, velocities };
+            if let Err(fault) = model.rates(&y[..split], &y[split..], into) {
+                failed.set(Some(fault));
+                rates.fill(f64::NAN);
+            }
+        };
+        let start = [&self.positions[..], &self.velocities[..]].concat();
+        let method = ExplicitRungeKutta::dop853()
+            .rtol(tolerance)
+            .atol(tolerance)
+            .max_steps(MOST_ADAPTIVE_STEPS);
+        let solution = IVP::ode_from_fn(rates, 0.0, self.progress.h, start).method(method).solve();
+        let time_s = self.progress.time_s;
+        let lost = || match failed.get() {
+            Some(fault) => Trouble::Dynamics { time_s, fault },
+            None => Trouble::Adaptive { time_s },
+        };
+        let solution = solution.map_err(|_| lost())?;
+        let Some((_, end)) = solution.last().ok().filter(|(_, y)| y.iter().all(|y| y.is_finite()))
+        else {
+            return Err(lost());
+        };
+        self.progress.evaluated(solution.evals.function as u64);
+        self.positions.copy_from_slice(&end[..split]);
+        self.velocities.copy_from_slice(&end[split..]);
+        Ok(())
+    }
+
+    fn bodies(&self) -> Result<(Vec<BodyState>, Vec<BodyState>), Trouble> {
+        self.model.bodies(&self.positions, &self.velocities).map_err(|fault| self.fault(fault))
+    }
+}
+
+fn moved(from: &[f64], along: &[f64], by: f64) -> Vec<f64> {
+    from.iter().zip(along).map(|(x, d)| x + by * d).collect()
+}
+
+impl Course for OfTree {
+    fn step(&mut self) -> Result<(), Trouble> {
+        match self.method {
+            TreeMethod::SemiImplicitEuler => self.euler()?,
+            TreeMethod::RungeKutta4 => self.runge_kutta()?,
+            TreeMethod::DormandPrince8(tolerance) => self.dormand_prince(tolerance)?,
+        }
+        if let Some(first) = self.model.quaternion() {
+            let q = &mut self.positions[first..first + 4];
+            let norm = q.iter().map(|q| q * q).sum::<f64>().sqrt();
+            q.iter_mut().for_each(|q| *q /= norm);
+        }
+        self.progress.advance();
+        Ok(())
+    }
+
+    fn place(&mut self) -> Result<Vec<f64>, Trouble> {
+        Ok(landmarks(&self.system, &self.bodies()?.0))
+    }
+
+    fn conserved(&mut self) -> Result<Conserved, Trouble> {
+        let (states, rates) = self.bodies()?;
+        Ok(conserved(&self.system, &states, &rates, self.is_free))
+    }
+
+    fn progress(&self) -> &Progress {
+        &self.progress
+    }
+}

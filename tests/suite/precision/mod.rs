@@ -1,0 +1,11 @@
+//! What accuracy costs: orders, order lost at contact, the same conclusions in every run, and advice.
+
+mod advice;
+mod controller;
+mod orders;
+mod repeats;
+
+use surefoot_sim::precision::Effort;
+
+/// The chart's steps, without times.
+const UNTIMED: Effort = Effort { repeats: 0, ..Effort::CHART };
