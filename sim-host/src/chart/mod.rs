@@ -1,5 +1,6 @@
 //! Charts as SVG.
 
+mod heat_map;
 mod marks;
 mod mechanism_charts;
 mod run_figures;
@@ -7,6 +8,7 @@ mod style;
 mod time_series;
 mod xy;
 
+pub use heat_map::{CellAxis, CellKind, CellLine, HeatMap};
 pub use marks::marks;
 pub use mechanism_charts::write_mechanism_chart;
 pub use run_figures::{RUN_FIGURES, RunFigure};

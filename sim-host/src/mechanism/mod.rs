@@ -3,5 +3,5 @@
 mod moving;
 mod run;
 
-pub use moving::{Moving, StartFailure, start};
+pub use moving::{Moving, StartFailure, start, start_bodies};
 pub use run::{MechanismRun, MechanismSample, run, run_from};

@@ -7,7 +7,7 @@ use crate::mechanics::{Chart, Lagrangian, jacobian};
 use crate::multibody::{Chain, Checkpoint, Simulation, SystemError};
 use crate::plant::StepFailure;
 use crate::scene::{BuildError, Link, Mechanism, MechanismScene};
-use crate::stability::{Rates, forecast};
+use crate::stability::{Course, foretell};
 use num_dual::Dual64;
 
 /// A mechanism on its way.
@@ -160,6 +160,9 @@ pub enum StartFailure {
     /// It is no state of the robot.
     #[error(transparent)]
     Robot(#[from] StepFailure),
+    /// It has no bodies and joints.
+    #[error("the mechanism has no bodies and joints")]
+    NoBodies,
 }
 
 /// Starts a scene.
@@ -175,17 +178,37 @@ pub fn start(scene: &MechanismScene) -> Result<Box<dyn Moving>, StartFailure> {
             let q = orientation.map(|q| q / norm);
             let q_dot = FreeRigidBody::rate(&q, angular_velocity_rad_s);
             let (method, h) = (scene.integrator.name, scene.integrator.step_s);
-            let rates = Rates::along_motion::<_, 4, 1, 5>(&body, q, q_dot, scene.duration_s);
+            let begin = move |method, h, q, q_dot| start_free_body(method, body, h, q, q_dot);
+            let course = Course::along::<_, 1, 5>(&body, q, q_dot, scene.duration_s, begin);
+            let forecast =
+                foretell::<_, 4, 1>(&body, &course, method, |h, q, v| begin(method, h, q, v));
             Ok(Box::new(Moved::<_, 4, 1> {
                 system: body,
                 motion: start_free_body(method, body, h, q, q_dot)?,
                 // For a step of no length the discrete momentum is the continuous one.
                 momentum: |body, q, v| body.discrete_momentum(q, v, 0.0).to_vec(),
-                forecast_s: forecast(method, &rates),
+                forecast_s: forecast.and_then(|forecast| forecast.step_s),
             }))
         }
-        Mechanism::Multibody(bodies) => Ok(Box::new(bodies.start(scene.integrator.step_s)?)),
-        Mechanism::Biped(flight) => Ok(Box::new(flight.start(scene.integrator.step_s)?)),
+        Mechanism::Pendulum { gravity_m_s2, links } => match links.len() {
+            1 => pendulum::<1, 2, 3, 4>(scene, *gravity_m_s2, links),
+            2 => pendulum::<2, 4, 6, 8>(scene, *gravity_m_s2, links),
+            3 => pendulum::<3, 6, 9, 12>(scene, *gravity_m_s2, links),
+            // The scene's check allows no more.
+            _ => pendulum::<4, 8, 12, 16>(scene, *gravity_m_s2, links),
+        },
+        bodies => Ok(Box::new(start_bodies(bodies, scene.integrator.step_s)?)),
+    }
+}
+
+/// Bodies and joints, in steps of `h`.
+///
+/// # Errors
+/// A [`StartFailure`]: [`StartFailure::NoBodies`] for mechanisms that are no system of bodies and joints.
+pub fn start_bodies(mechanism: &Mechanism, h: f64) -> Result<Simulation, StartFailure> {
+    Ok(match mechanism {
+        Mechanism::Multibody(bodies) => bodies.start(h)?,
+        Mechanism::Biped(flight) => flight.start(h)?,
         Mechanism::Chain {
             links,
             mass_kg,
@@ -206,17 +229,12 @@ pub fn start(scene: &MechanismScene) -> Result<Box<dyn Moving>, StartFailure> {
                 gravity: *gravity_m_s2,
             };
             let (states, still) = (chain.bent(bend_deg.to_radians()), vec![[0.0; 7]; *links]);
-            let h = scene.integrator.step_s;
-            Ok(Box::new(Simulation::new(chain.system()?, h, &states, &still)?))
+            Simulation::new(chain.system()?, h, &states, &still)?
         }
-        Mechanism::Pendulum { gravity_m_s2, links } => match links.len() {
-            1 => pendulum::<1, 2, 3, 4>(scene, *gravity_m_s2, links),
-            2 => pendulum::<2, 4, 6, 8>(scene, *gravity_m_s2, links),
-            3 => pendulum::<3, 6, 9, 12>(scene, *gravity_m_s2, links),
-            // The scene's check allows no more.
-            _ => pendulum::<4, 8, 12, 16>(scene, *gravity_m_s2, links),
-        },
-    }
+        Mechanism::RigidBody { .. } | Mechanism::Pendulum { .. } => {
+            return Err(StartFailure::NoBodies);
+        }
+    })
 }
 
 /// `L` links, with `M` angles, `N` coordinates, and `U` unknowns.
@@ -237,11 +255,14 @@ fn pendulum<const L: usize, const M: usize, const N: usize, const U: usize>(
     let (x, slope) = jacobian(&angles, |q| chart.embed(q));
     let v: [f64; N] = slope.map(|row| row.iter().enumerate().map(|(k, s)| s * rate(k)).sum());
     let (method, h) = (scene.integrator.name, scene.integrator.step_s);
-    let rates = Rates::along_motion::<_, N, L, U>(&system, x, v, scene.duration_s);
+    let begin = move |method, h, x, v| start_natural::<_, f64, N, L, U>(method, system, h, x, v);
+    let course = Course::along::<_, L, U>(&system, x, v, scene.duration_s, begin);
+    let forecast =
+        foretell::<_, N, L>(&system, &course, method, |h, x, v| begin(method, h, x, v));
     Ok(Box::new(Moved::<_, N, L> {
         system,
         motion: start_natural::<_, f64, N, L, U>(method, system, h, x, v)?,
         momentum: |system, x, v| vec![system.vertical_momentum(x, v)],
-        forecast_s: forecast(method, &rates),
+        forecast_s: forecast.and_then(|forecast| forecast.step_s),
     }))
 }
