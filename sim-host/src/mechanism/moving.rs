@@ -257,8 +257,7 @@ fn pendulum<const L: usize, const M: usize, const N: usize, const U: usize>(
     let (method, h) = (scene.integrator.name, scene.integrator.step_s);
     let begin = move |method, h, x, v| start_natural::<_, f64, N, L, U>(method, system, h, x, v);
     let course = Course::along::<_, L, U>(&system, x, v, scene.duration_s, begin);
-    let forecast =
-        foretell::<_, N, L>(&system, &course, method, |h, x, v| begin(method, h, x, v));
+    let forecast = foretell::<_, N, L>(&system, &course, method, |h, x, v| begin(method, h, x, v));
     Ok(Box::new(Moved::<_, N, L> {
         system,
         motion: start_natural::<_, f64, N, L, U>(method, system, h, x, v)?,

@@ -19,9 +19,9 @@ pub struct Course<const N: usize> {
 }
 
 /// States kept of a motion.
-const STATES: usize = 600;
+const STATES: usize = 300;
 /// Steps between them.
-const STEPS: usize = 20;
+const STEPS: usize = 40;
 
 impl<const N: usize> Course<N> {
     /// Along the projected Runge–Kutta method in short steps, as far as it can be followed. `start` begins
@@ -40,8 +40,12 @@ impl<const N: usize> Course<N> {
         S: Lagrangian<N, C>,
     {
         let spacing_s = duration_s / STATES as f64;
-        let mut course =
-            Self { states: Vec::with_capacity(STATES), spacing_s, oscillation: 0.0, kinetic_j: 0.0 };
+        let mut course = Self {
+            states: Vec::with_capacity(STATES),
+            spacing_s,
+            oscillation: 0.0,
+            kinetic_j: 0.0,
+        };
         let h = spacing_s / STEPS as f64;
         let Ok(mut motion) = start(Method::RungeKutta4Projected, h, x, v) else { return course };
         for _ in 0..STATES {

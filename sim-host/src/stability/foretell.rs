@@ -1,9 +1,7 @@
 //! Forecasts for methods on mechanisms: a probe made of a method's own steps.
 
 use super::course::Course;
-use super::forecast::{
-    Change, Forecast, PROBED, Probe, has_modified_energy, oscillation_limit,
-};
+use super::forecast::{Change, Forecast, PROBED, Probe, has_modified_energy, oscillation_limit};
 use super::verdict::{Bounds, FailureKind};
 use crate::integrators::{Method, Motion, StartError};
 use crate::mechanics::{Lagrangian, jacobian};
@@ -44,7 +42,7 @@ fn drifts(method: Method) -> bool {
 /// `start` begins a motion with a step, from a configuration and a velocity.
 ///
 /// # Cost
-/// Some 50 000 steps at most.
+/// Some 60 000 steps.
 pub fn foretell<S, const N: usize, const C: usize>(
     system: &S,
     course: &Course<N>,

@@ -1,8 +1,8 @@
 //! A problem: a system, a start, a time, and what its motion must keep.
 
 use super::course::Course;
-use super::foretell::{RANGE_S, bounds, foretell};
 use super::forecast::Forecast;
+use super::foretell::{RANGE_S, bounds, foretell};
 use super::verdict::{Verdict, attempt};
 use crate::integrators::{Method, start_free_body, start_natural};
 use crate::mechanics::systems::FreeRigidBody;
@@ -20,7 +20,7 @@ pub struct Problem {
     pub description: &'static str,
     /// The shortest and the longest step in question, s.
     pub range_s: [f64; 2],
-    /// Steps must go into this a whole number of times, s.
+    /// Shorter steps than this must go into it a whole number of times, s.
     pub period_s: Option<f64>,
     pub(super) attempt: Attempt,
     pub(super) foretell: Foretell,

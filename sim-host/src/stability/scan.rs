@@ -127,15 +127,18 @@ pub fn scan_one(problem: &Problem, method: Method, ratio: f64) -> Option<Limit> 
     Some(limit)
 }
 
-/// Steps in a ratio, the shortest first; those of a period that goes into them a whole number of times.
+/// Steps in a ratio, the shortest first; those below a period go into it a whole number of times.
 fn steps(problem: &Problem, ratio: f64) -> Vec<f64> {
     let [shortest, longest] = problem.range_s;
     let all = std::iter::successors(Some(shortest), |h| Some(h * ratio));
     // Round-off must not cost the longest.
     let all = all.take_while(|h| *h <= longest * (1.0 + 1e-9));
     let Some(period_s) = problem.period_s else { return all.collect() };
-    let mut steps: Vec<f64> =
-        all.chain([longest]).map(|h| period_s / (period_s / h - 1e-9).ceil()).collect();
+    let shortened = |h: f64| match h < period_s {
+        true => period_s / (period_s / h - 1e-9).ceil(),
+        false => h,
+    };
+    let mut steps: Vec<f64> = all.map(shortened).collect();
     steps.dedup();
     steps
 }

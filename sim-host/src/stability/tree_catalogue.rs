@@ -46,7 +46,8 @@ pub fn tree_problems() -> Result<Vec<Problem>, TreeProblemError> {
     let least_s = Criterion::default().least_duration_s;
     Ok(vec![
         motion_of(&chain, 5.0)?.problem("chain", "ten hanging rods, let go bent, 5 s"),
-        floating_chain(&chain, 5.0)?.problem("floating-chain", "ten rods on ball joints, afloat and turning, 5 s"),
+        floating_chain(&chain, 5.0)?
+            .problem("floating-chain", "ten rods on ball joints, afloat and turning, 5 s"),
         motion_of(&built_in("biped-flight")?, 5.0)?
             .problem("biped-flight", "the biped afloat, limbs in motion, 5 s"),
         motion_of(&built_in("four-bar")?, 5.0)?

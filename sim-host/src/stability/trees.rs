@@ -29,7 +29,7 @@ const RANGE_S: [f64; 2] = [0.5e-3, 0.5];
 /// The accurate motion's steps are this share of the time.
 const STEPS: usize = 8000;
 /// States of it that probes begin from.
-const STATES: usize = 400;
+const STATES: usize = 200;
 /// Of these, those at which the fastest swing is asked for.
 const SWINGS: usize = 20;
 /// Share of the largest kinetic energy by which energy may be off.
@@ -118,8 +118,8 @@ impl TreeMotion {
     /// The motion in short steps, as far as it can be followed.
     fn watched(&self) -> Watched {
         let Self { system, states, rates, duration_s } = self;
-        let dissipates = system.ground().is_some()
-            || system.laws().iter().any(|(_, law)| law.damping > 0.0);
+        let dissipates =
+            system.ground().is_some() || system.laws().iter().any(|(_, law)| law.damping > 0.0);
         let mut watched = Watched {
             states: Vec::with_capacity(STATES),
             spacing_s: duration_s / STATES as f64,

@@ -1,7 +1,9 @@
 //! `surefoot chart stability`: the maps in two parameters.
 
 use super::map_picture::picture;
-use crate::stability::maps::{Column, Failure, Foretold, Map, MapStore, Outcome, maps, survey, tell};
+use crate::stability::maps::{
+    Column, Failure, Foretold, Map, MapStore, Outcome, maps, survey, tell,
+};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -66,7 +68,9 @@ impl Mapped {
 
     /// What each map says.
     pub fn text(&self) -> String {
-        self.iter().map(|(map, columns)| format!("\n{}\n  {}\n", map.title, tell(map, columns))).collect()
+        self.iter()
+            .map(|(map, columns)| format!("\n{}\n  {}\n", map.title, tell(map, columns)))
+            .collect()
     }
 
     /// A drawing and a table of each map.

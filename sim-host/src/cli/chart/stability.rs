@@ -65,9 +65,11 @@ fn write_page(
         let drawing = map_picture::picture(map, columns).svg();
         Ok(MapFigure {
             // In a page it needs no namespace.
-            drawing: drawing
-                .map_err(|error| error.to_string())?
-                .replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1),
+            drawing: drawing.map_err(|error| error.to_string())?.replacen(
+                " xmlns=\"http://www.w3.org/2000/svg\"",
+                "",
+                1,
+            ),
             says: tell(map, columns),
             note: map.note.to_owned(),
         })

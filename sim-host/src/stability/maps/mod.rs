@@ -10,10 +10,10 @@
 
 mod axis;
 mod column;
+mod ground;
 mod loops;
 mod methods;
 mod outcome;
-mod prediction;
 mod store;
 mod survey;
 mod tell;
@@ -21,10 +21,10 @@ mod yielding;
 
 pub use axis::Axis;
 pub use column::{Column, Foretold, Map, Stack};
+pub use ground::should_work;
 pub use loops::loop_maps;
 pub use methods::method_maps;
 pub use outcome::{Failure, Outcome};
-pub use prediction::{Axes, settles};
 pub use store::{MapStore, MapStoreError};
 pub use survey::survey;
 pub use tell::{count_forecasts, significant, tell};

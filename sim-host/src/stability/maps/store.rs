@@ -62,8 +62,7 @@ impl MapStore {
     /// # Errors
     /// [`MapStoreError`].
     pub fn keep(&self, columns: &Columns) -> Result<(), MapStoreError> {
-        let finished =
-            Finished { fingerprint: self.fingerprint.clone(), columns: columns.clone() };
+        let finished = Finished { fingerprint: self.fingerprint.clone(), columns: columns.clone() };
         let text = serde_json::to_string(&finished).map_err(|error| self.error(&error))?;
         let draft = self.path.with_extension("draft");
         std::fs::write(&draft, text)
