@@ -19,9 +19,9 @@ pub struct Course<const N: usize> {
 }
 
 /// States kept of a motion.
-const STATES: usize = 300;
+const STATES: usize = 600;
 /// Steps between them.
-const STEPS: usize = 40;
+const STEPS: usize = 20;
 
 impl<const N: usize> Course<N> {
     /// Along the projected Runge–Kutta method in short steps, as far as it can be followed. `start` begins

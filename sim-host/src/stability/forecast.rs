@@ -1,6 +1,6 @@
 //! What step a method will bear, said before the run.
 //!
-//! A run fails in one of three ways, and each shows in a few steps ([`PROBED`]) from states along an accurate
+//! A run fails in one of three ways, and each shows in a few steps from states along an accurate
 //! motion:
 //!
 //! 1. *A step has no solution.* Implicit equations lose their root at a fold, which depends on the state
@@ -24,7 +24,7 @@
 //!    in a step they represent another motion than the one that the forecast knows
 //!    ([`oscillation_limit`]).
 //!
-//! The step foretold is the shortest of the three, times [`SHARE`].
+//! The step foretold is the shortest of the three, times a share below 1.
 //!
 //! # Notation
 //! - `Ω`: how fast the motion oscillates, the square root of the norm of `∂a/∂x` along the manifold, at its
@@ -48,7 +48,7 @@ pub struct Forecast {
     pub kind: Option<FailureKind>,
 }
 
-/// What [`PROBED`] steps do to what a motion must keep.
+/// What a few steps do to what a motion must keep.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Change {
     /// Of energy, J.
@@ -61,29 +61,47 @@ pub struct Change {
     pub rates: Vec<f64>,
 }
 
-/// Steps made from each state.
-pub const PROBED: usize = 12;
-
 /// A few steps from states along an accurate motion.
 pub struct Probe<'a> {
     /// How many states there are.
     pub states: usize,
     /// Time between them, s.
     pub spacing_s: f64,
-    /// [`PROBED`] steps from a state, each of so many seconds.
+    /// How many steps are made from each state.
+    pub steps: usize,
+    /// That many steps from a state, each of so many seconds.
     pub step: &'a dyn Fn(usize, f64) -> Result<Change, FailureKind>,
     /// Whether errors of energy do not add up.
     pub has_modified_energy: bool,
     /// `h` beyond which disturbances grow, s.
     pub unstable_s: f64,
+    /// Of the step at which probes begin to fail: what is foretold.
+    pub share: f64,
     /// Steps in question, s.
     pub range_s: [f64; 2],
 }
 
-/// Of the step at which single steps from an accurate motion begin to fail. A run at that step is on a
-/// motion of its own, with other extremes, and looks at far more states than the forecast does: what it
-/// meets is a little faster. Measured on the catalogue, and kept for all methods alike.
-const SHARE: f64 = 0.8;
+/// Steps made from a state.
+pub(super) const FEW_STEPS: usize = 5;
+/// The same of methods that carry momentum across constraints along, which builds up.
+const MANY_STEPS: usize = 12;
+/// Of the step at which probes begin to fail. A run at that step is on a motion of its own, with other
+/// extremes, and looks at far more states than the forecast does: what it meets is a little faster. Measured on
+/// the catalogue, and kept for all methods but those of [`REDUCED_SHARE`].
+pub(super) const SHARE: f64 = 0.8;
+/// Of methods that carry momentum across constraints along: it builds up for longer than a probe lasts.
+const REDUCED_SHARE: f64 = 0.6;
+
+/// How many steps a method is probed with, and the share of the step at which these begin to fail.
+pub(super) fn steps_and_share(method: Method, has_constraints: bool) -> (usize, f64) {
+    match method {
+        Method::EnergyMomentum | Method::ImplicitMidpoint if has_constraints => {
+            (MANY_STEPS, REDUCED_SHARE)
+        }
+        _ => (FEW_STEPS, SHARE),
+    }
+}
+
 /// Ratio of steps in a climb.
 const CLIMB: f64 = 1.3;
 /// Bisections after it: to 1 %.
@@ -93,7 +111,7 @@ impl Probe<'_> {
     /// The longest step within bounds, found by climbing from the shortest.
     ///
     /// # Cost
-    /// Up to 400 steps from each state.
+    /// Up to 200 steps from each state, or 400.
     pub(super) fn forecast(&self, bounds: &Bounds) -> Forecast {
         let [shortest, longest] = self.range_s;
         if self.states == 0 {
@@ -101,7 +119,7 @@ impl Probe<'_> {
         }
         let (mut works, mut h) = (None, shortest);
         // The share is to be within the range.
-        while h * SHARE <= longest {
+        while h * self.share <= longest {
             if let Some(kind) = self.fails(h, bounds) {
                 let Some(works) = works else { return Forecast { step_s: None, kind: Some(kind) } };
                 return self.between(works, (h, kind), bounds);
@@ -120,7 +138,7 @@ impl Probe<'_> {
                 Some(kind) => fails = (h, kind),
             }
         }
-        Forecast { step_s: Some(SHARE * works), kind: Some(fails.1) }
+        Forecast { step_s: Some(self.share * works), kind: Some(fails.1) }
     }
 
     /// How a run in steps of `h` should fail, if it should.
@@ -131,7 +149,7 @@ impl Probe<'_> {
         let mut energies = Vec::with_capacity(self.states);
         let (mut values, mut rates) = (Vec::new(), Vec::new());
         // Probes that would fit between two states.
-        let probes = self.spacing_s / (PROBED as f64 * h);
+        let probes = self.spacing_s / (self.steps as f64 * h);
         for state in 0..self.states {
             let change = match (self.step)(state, h) {
                 Ok(change) => change,
@@ -168,13 +186,12 @@ impl Probe<'_> {
 
 /// Whether a method conserves an energy near that of the system, so that errors of energy do not add up:
 /// symplectic methods, symmetric ones on reversible systems, and the one that conserves energy itself (Hairer,
-/// Lubich and Wanner, *Geometric Numerical Integration*, IX and XI). With constraints neither
-/// semi-implicit Euler, which imposes their acceleration alone, nor the midpoint rule, whose constraint forces are
-/// along `Dgᵀ` of a point off the manifold, is symplectic.
+/// Lubich and Wanner, *Geometric Numerical Integration*, IX and XI). Constraints that are imposed
+/// on accelerations alone take it away.
 pub fn has_modified_energy(method: Method, has_constraints: bool) -> bool {
     match method {
         Method::RungeKutta4 | Method::RungeKutta4Projected | Method::DormandPrince8 => false,
-        Method::SemiImplicitEuler | Method::ImplicitMidpoint => !has_constraints,
+        Method::SemiImplicitEuler => !has_constraints,
         _ => true,
     }
 }

@@ -1,7 +1,9 @@
 //! Forecasts for methods on mechanisms: a probe made of a method's own steps.
 
 use super::course::Course;
-use super::forecast::{Change, Forecast, PROBED, Probe, has_modified_energy, oscillation_limit};
+use super::forecast::{
+    Change, Forecast, Probe, has_modified_energy, oscillation_limit, steps_and_share,
+};
 use super::verdict::{Bounds, FailureKind};
 use crate::integrators::{Method, Motion, StartError};
 use crate::mechanics::{Lagrangian, jacobian};
@@ -42,7 +44,7 @@ fn drifts(method: Method) -> bool {
 /// `start` begins a motion with a step, from a configuration and a velocity.
 ///
 /// # Cost
-/// Some 60 000 steps.
+/// Some 100 000 steps.
 pub fn foretell<S, const N: usize, const C: usize>(
     system: &S,
     course: &Course<N>,
@@ -62,6 +64,7 @@ where
     {
         return None;
     }
+    let (steps, share) = steps_and_share(method, C > 0);
     let step = |state: usize, h: f64| -> Result<Change, FailureKind> {
         let (x, v) = course.states[state];
         let mut motion = match start(h, x, v) {
@@ -71,7 +74,7 @@ where
         };
         let energy_before = system.energy(&x, &v);
         let (mut energy, mut largest_energy) = (0.0, 0.0_f64);
-        for _ in 0..PROBED {
+        for _ in 0..steps {
             motion.step()?;
             energy = system.energy(motion.configuration(), &motion.velocity()?) - energy_before;
             if !(energy.abs() <= largest_energy.abs()) {
@@ -91,6 +94,8 @@ where
     let probe = Probe {
         states: course.states.len(),
         spacing_s: course.spacing_s,
+        steps,
+        share,
         step: &step,
         has_modified_energy: has_modified_energy(method, C > 0),
         unstable_s: oscillation_limit(method) / course.oscillation,

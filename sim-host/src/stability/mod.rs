@@ -16,7 +16,7 @@ mod verdict;
 
 pub use catalogue::problems;
 pub use course::Course;
-pub use forecast::{Change, Forecast, PROBED, Probe, has_modified_energy, oscillation_limit};
+pub use forecast::{Change, Forecast, Probe, has_modified_energy, oscillation_limit};
 pub use foretell::foretell;
 pub use problem::Problem;
 pub use scan::{Agreement, Limit, Scan, scan, scan_one, scan_problems};

@@ -4,7 +4,7 @@
 //! springs, dampers and floor are implicit and limit nothing but accuracy; weight enters a step like forces
 //! do in Verlet's method, so that its fastest swing grows beyond `Ω h = 2`.
 
-use super::forecast::{Change, Forecast, PROBED, Probe};
+use super::forecast::{Change, FEW_STEPS, Forecast, Probe, SHARE};
 use super::problem::Problem;
 use super::verdict::{Bounds, FailureKind, Verdict};
 use crate::contact::Floor;
@@ -29,7 +29,7 @@ const RANGE_S: [f64; 2] = [0.5e-3, 0.5];
 /// The accurate motion's steps are this share of the time.
 const STEPS: usize = 8000;
 /// States of it that probes begin from.
-const STATES: usize = 200;
+const STATES: usize = 400;
 /// Of these, those at which the fastest swing is asked for.
 const SWINGS: usize = 20;
 /// Share of the largest kinetic energy by which energy may be off.
@@ -167,7 +167,7 @@ impl TreeMotion {
                 simulation.map_err(|_| FailureKind::NotFinite)?.without_splitting();
             let (kinetic, potential) = simulation.energies()?;
             let mut change = Change::default();
-            for _ in 0..PROBED {
+            for _ in 0..FEW_STEPS {
                 simulation.step()?;
                 let (kinetic_now, potential_now) = simulation.energies()?;
                 change.energy = kinetic_now + potential_now - kinetic - potential;
@@ -186,6 +186,8 @@ impl TreeMotion {
             spacing_s: watched.spacing_s,
             step: &step,
             has_modified_energy: true,
+            steps: FEW_STEPS,
+            share: SHARE,
             unstable_s: watched.unstable_s,
             range_s: RANGE_S,
         };

@@ -26,7 +26,9 @@ pub fn tell(map: &Map, columns: &[Column]) -> String {
     text += &edge(map, columns);
     let islands = columns.iter().filter(|column| has_island(column)).count();
     if islands > 0 {
-        text += &format!(" In {islands} columns something works again beyond the first failure.");
+        let columns =
+            if islands == 1 { "1 column".to_owned() } else { format!("{islands} columns") };
+        text += &format!(" In {columns} something works again beyond the first failure.");
     }
     let [near, bold] = count_forecasts(map, columns);
     let told = columns.iter().filter(|column| column.foretold != Foretold::Unlimited).count();
