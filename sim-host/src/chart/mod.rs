@@ -1,6 +1,7 @@
 //! Charts as SVG.
 
 mod bars;
+mod heat_map;
 mod log_log;
 mod marks;
 mod mechanism_charts;
@@ -10,6 +11,7 @@ mod time_series;
 mod xy;
 
 pub use bars::{Bar, Bars};
+pub use heat_map::{CellAxis, CellKind, CellLine, HeatMap};
 pub use log_log::{LogLogChart, MarkedCurve};
 pub use marks::marks;
 pub use mechanism_charts::write_mechanism_chart;

@@ -11,7 +11,7 @@ use crate::mechanics::{Chart, Lagrangian, jacobian};
 use crate::multibody::{Chain, Checkpoint, Simulation, SystemError};
 use crate::plant::StepFailure;
 use crate::scene::{BuildError, Link, Mechanism, MechanismScene};
-use crate::stability::{Rates, forecast};
+use crate::stability::{Course, foretell};
 use num_dual::Dual64;
 use std::cell::LazyCell;
 
@@ -168,6 +168,9 @@ pub enum StartFailure {
     /// It is no state of the robot.
     #[error(transparent)]
     Robot(#[from] StepFailure),
+    /// It has no bodies and joints.
+    #[error("the mechanism has no bodies and joints")]
+    NoBodies,
 }
 
 /// Starts a scene.
@@ -205,8 +208,12 @@ pub fn start_within(
                 // For a step of no length the discrete momentum is the continuous one.
                 momentum: |body, q, v| body.discrete_momentum(q, v, 0.0).to_vec(),
                 forecast_s: LazyCell::new(Box::new(move || {
-                    let rates = Rates::along_motion::<_, 4, 1, 5>(&body, q, q_dot, duration_s);
-                    forecast(method, &rates)
+                    let begin = |method, h, q, v| start_free_body(method, body, h, q, v);
+                    let course = Course::along::<_, 1, 5>(&body, q, q_dot, duration_s, begin);
+                    let found = foretell::<_, 4, 1>(&body, &course, method, |h, q, v| {
+                        begin(method, h, q, v)
+                    });
+                    found.and_then(|forecast| forecast.step_s)
                 })),
             }))
         }
@@ -219,25 +226,25 @@ pub fn start_within(
         },
         Mechanism::Multibody(bodies) => {
             let torques: Vec<f64> = bodies.bodies.iter().map(|body| body.torque).collect();
-            Ok(without_fixed_joints(start_bodies(scene)?, &torques)?)
+            Ok(without_fixed_joints(
+                start_bodies(&scene.mechanism, scene.integrator.step_s)?,
+                &torques,
+            )?)
         }
-        Mechanism::Biped(_) | Mechanism::Chain { .. } => Ok(Box::new(start_bodies(scene)?)),
+        Mechanism::Biped(_) | Mechanism::Chain { .. } => {
+            Ok(Box::new(start_bodies(&scene.mechanism, scene.integrator.step_s)?))
+        }
     }
 }
 
-/// Starts a scene of bodies and joints.
+/// Bodies and joints, in steps of `h`.
 ///
 /// # Errors
-/// A [`StartFailure`]; [`StartError::NotFor`] for the mechanisms of chapter 2, which are none.
-pub fn start_bodies(scene: &MechanismScene) -> Result<Simulation, StartFailure> {
-    let h = scene.integrator.step_s;
-    match &scene.mechanism {
-        Mechanism::RigidBody { .. } | Mechanism::Pendulum { .. } => {
-            let (method, takes) = (scene.integrator.name, "coordinates of its own");
-            Err(StartError::NotFor { method, takes }.into())
-        }
-        Mechanism::Multibody(bodies) => Ok(bodies.start(h)?),
-        Mechanism::Biped(flight) => Ok(flight.start(h)?),
+/// A [`StartFailure`]: [`StartFailure::NoBodies`] for mechanisms that are no system of bodies and joints.
+pub fn start_bodies(mechanism: &Mechanism, h: f64) -> Result<Simulation, StartFailure> {
+    Ok(match mechanism {
+        Mechanism::Multibody(bodies) => bodies.start(h)?,
+        Mechanism::Biped(flight) => flight.start(h)?,
         Mechanism::Chain {
             links,
             mass_kg,
@@ -258,9 +265,12 @@ pub fn start_bodies(scene: &MechanismScene) -> Result<Simulation, StartFailure> 
                 gravity: *gravity_m_s2,
             };
             let (states, still) = (chain.bent(bend_deg.to_radians()), vec![[0.0; 7]; *links]);
-            Ok(Simulation::new(chain.system()?, h, &states, &still)?)
+            Simulation::new(chain.system()?, h, &states, &still)?
         }
-    }
+        Mechanism::RigidBody { .. } | Mechanism::Pendulum { .. } => {
+            return Err(StartFailure::NoBodies);
+        }
+    })
 }
 
 /// `L` links, with `M` angles, `N` coordinates, and `U` unknowns.
@@ -292,8 +302,11 @@ fn pendulum<const L: usize, const M: usize, const N: usize, const U: usize>(
         motion,
         momentum: |system, x, v| vec![system.vertical_momentum(x, v)],
         forecast_s: LazyCell::new(Box::new(move || {
-            let rates = Rates::along_motion::<_, N, L, U>(&system, x, v, duration_s);
-            forecast(method, &rates)
+            let begin = |method, h, x, v| start_natural::<_, f64, N, L, U>(method, system, h, x, v);
+            let course = Course::along::<_, L, U>(&system, x, v, duration_s, begin);
+            let found =
+                foretell::<_, N, L>(&system, &course, method, |h, x, v| begin(method, h, x, v));
+            found.and_then(|forecast| forecast.step_s)
         })),
     }))
 }

@@ -66,7 +66,10 @@ impl Problem {
                 (contenders, omitted, true)
             }
             Mechanism::Chain { .. } | Mechanism::Multibody(_) | Mechanism::Biped(_) => {
-                let keeps_energy = keeps_energy(scene, start_bodies(scene)?.system());
+                let keeps_energy = keeps_energy(
+                    scene,
+                    start_bodies(&scene.mechanism, scene.integrator.step_s)?.system(),
+                );
                 let (contenders, omitted) = tree_contenders(scene)?;
                 (contenders, omitted, keeps_energy)
             }

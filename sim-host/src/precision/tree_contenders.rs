@@ -26,7 +26,7 @@ pub(super) fn tree_contenders(
     scene: &MechanismScene,
 ) -> Result<(Vec<Contender>, Vec<Omission>), StartFailure> {
     let mut all = Gathered { contenders: Vec::new(), omitted: Vec::new() };
-    let simulation = start_bodies(scene)?;
+    let simulation = start_bodies(&scene.mechanism, scene.integrator.step_s)?;
     let system = simulation.system().clone();
     let touches = system.ground().is_some() || !system.strikers().is_empty();
     all.push(Method::Variational.name(), Some(2), composed(scene, Stages::One));
@@ -72,16 +72,10 @@ impl Gathered {
 fn composed(scene: &MechanismScene, stages: Stages) -> Start {
     let scene = scene.clone();
     Box::new(move |h, _| {
-        let simulation = start_bodies(&with_step(&scene, h))?;
+        let simulation = start_bodies(&scene.mechanism, h)?;
         let course: Box<dyn Course> = Box::new(OfBodies { simulation, stages });
         Ok(course)
     })
-}
-
-fn with_step(scene: &MechanismScene, h: f64) -> MechanismScene {
-    let mut scene = scene.clone();
-    scene.integrator.step_s = h;
-    scene
 }
 
 fn at_midpoints(scene: &MechanismScene) -> Option<MechanismScene> {
@@ -116,7 +110,7 @@ fn with_constraints(scene: &MechanismScene, system: &System, all: &mut Gathered)
     }
     let scene = scene.clone();
     let start: Start = Box::new(move |h, _| {
-        let mut simulation = start_bodies(&with_step(&scene, h))?;
+        let mut simulation = start_bodies(&scene.mechanism, h)?;
         let is_free = !Moving::conserved(&mut simulation).map_or(true, |c| c.1.is_empty());
         let (states, rates) = (simulation.states(), simulation.rates().map_err(start_failure)?);
         let system = simulation.system().clone();
@@ -135,7 +129,7 @@ fn on_differential_equations(
     scene: &MechanismScene,
     all: &mut Gathered,
 ) -> Result<(), StartFailure> {
-    let mut simulation = start_bodies(scene)?;
+    let mut simulation = start_bodies(&scene.mechanism, scene.integrator.step_s)?;
     let methods = [Method::SemiImplicitEuler, Method::RungeKutta4, Method::DormandPrince8];
     let model = match tree_model(&mut simulation, &torques(scene)) {
         Ok(model) => Arc::from(model),

@@ -2,6 +2,8 @@
 
 mod page;
 mod replay_data;
+mod stability_page;
 mod tables;
 
 pub use page::{PageFailure, Report, page};
+pub use stability_page::{MapFigure, StepRow, StepTable, stability_page};

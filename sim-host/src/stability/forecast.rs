@@ -1,104 +1,245 @@
 //! What step a method will bear, said before the run.
 //!
-//! # Notation
-//! - `κ`: how fast constraints bend the motion, `|a_n|/|v|` with `a_n` the part of the acceleration
-//!   that is quadratic in velocities and normal to the manifold; for a rod its angular velocity, for
-//!   a unit quaternion half of it
-//! - `Ω`: how fast the motion oscillates, the square root of the norm of `∂a/∂x` along the manifold
-//! - both at their largest along an accurate motion
+//! A run fails in one of three ways, and each shows in a few steps from states along an accurate
+//! motion:
 //!
-//! Constraint forces along `Dgᵀ(x)` can bring the end of a step back to the manifold only while
-//! `κ h ≤ 1`; the explicit methods are stable for an oscillation only while `Ω h ≤ 2`.
+//! 1. *A step has no solution.* Implicit equations lose their root at a fold, which depends on the state
+//!    alone, but for what a method carries along: the energy-momentum method's momentum across the
+//!    constraints changes sign from step to step and builds up in the first few. The methods' folds differ:
+//!    RATTLE's constraint forces along `Dgᵀ(x)` cannot bring the end of a step back once the direction of
+//!    motion turns by some 1 rad in it; those along `Dgᵀ` of the chord can; the equations on the group of
+//!    rotations (`LieGroup`) have no fold for a body in steady rotation. So no bound on the turn in a step
+//!    serves all; the steps' own equations do.
+//! 2. *Errors add up.* By the telescoping sum of errors (Hairer, Nørsett and Wanner, *Solving Ordinary
+//!    Differential Equations I*, II.3) a run's error in energy is the sum of the steps' own, each carried
+//!    along by the flow, which conserves it: `B(t) = Σ e(x_k; h)/h Δt`, with `e` the change of energy in a
+//!    step. Methods with a modified energy `H + h^p K` make no error that adds up
+//!    ([`has_modified_energy`]): of `B` only what is left beside its trend counts, as the trend is that
+//!    of `K` along the accurate motion, not along the method's own. Constraints the same: explicit methods
+//!    impose their acceleration alone, so that the drift of their rates adds up once, that of their values
+//!    twice. The energy of no single step may be out of bounds either.
+//! 3. *Errors grow.* Beyond its limit of linear stability a method makes any disturbance grow, though its
+//!    single steps are good. For an oscillation `ẍ = −Ω² x` that limit is where the step's matrix has an
+//!    eigenvalue off the unit circle. Methods without such a limit have another one: beyond half a period
+//!    in a step they represent another motion than the one that the forecast knows
+//!    ([`oscillation_limit`]).
+//!
+//! The step foretold is the shortest of the three, times a share below 1.
+//!
+//! # Notation
+//! - `Ω`: how fast the motion oscillates, the square root of the norm of `∂a/∂x` along the manifold, at its
+//!   largest
+//! - `e`: change of energy in a step; `B`: its sum along the motion
 
-use crate::integrators::{DormandPrince, Integrator, Method};
-use crate::mechanics::{Lagrangian, acceleration, bend, jacobian, saddle};
+use super::verdict::{Bounds, FailureKind};
+use crate::integrators::{Method, YOSHIDA_4, YOSHIDA_6};
+use crate::mechanics::{Lagrangian, acceleration, jacobian, saddle};
 use crate::newton::solve_linear;
 use num_dual::Dual64;
 use serde::Serialize;
+use std::f64::consts::PI;
 
-/// How fast a motion is.
+/// What a run is foretold to bear.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Rates {
-    /// `κ`, 1/s.
-    pub bend: f64,
-    /// `Ω`, 1/s.
-    pub oscillation: f64,
-    /// Largest kinetic energy, J.
-    pub kinetic_j: f64,
+pub struct Forecast {
+    /// The longest step that should work, s; `None` where none does, or nothing limits it: see `kind`.
+    pub step_s: Option<f64>,
+    /// How longer steps fail; `None` where nothing limits them but accuracy.
+    pub kind: Option<FailureKind>,
 }
 
-/// Samples of the accurate motion.
-const SAMPLES: usize = 600;
-/// Its tolerance.
-const TOLERANCE: f64 = 1e-8;
+/// What a few steps do to what a motion must keep.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Change {
+    /// Of energy, J.
+    pub energy: f64,
+    /// The largest of energy after any of them, with its sign, J.
+    pub largest_energy: f64,
+    /// Of constraints, which are zero before.
+    pub constraints: Vec<f64>,
+    /// Of their rates, for methods that impose neither: empty for others, whose rates do not add up.
+    pub rates: Vec<f64>,
+}
 
-impl Rates {
-    /// The largest along a motion of some seconds, as far as it can be followed.
-    pub fn along_motion<S, const N: usize, const C: usize, const U: usize>(
-        system: &S,
-        x: [f64; N],
-        v: [f64; N],
-        duration_s: f64,
-    ) -> Self
-    where
-        S: Lagrangian<N, C> + Clone,
-    {
-        let h = duration_s / SAMPLES as f64;
-        let mut motion = DormandPrince::<_, N, C, U>::new(system.clone(), TOLERANCE, h, x, v);
-        let mut all = Self::default();
-        for _ in 0..SAMPLES {
-            if let Ok(v) = motion.velocity() {
-                let here = Self::at::<S, N, C, U>(system, motion.configuration(), &v);
-                all.bend = all.bend.max(here.bend);
-                all.oscillation = all.oscillation.max(here.oscillation);
-                all.kinetic_j = all.kinetic_j.max(here.kinetic_j);
-            }
-            if motion.step().is_err() {
-                break;
-            }
+/// A few steps from states along an accurate motion.
+pub struct Probe<'a> {
+    /// How many states there are.
+    pub states: usize,
+    /// Time between them, s.
+    pub spacing_s: f64,
+    /// How many steps are made from each state.
+    pub steps: usize,
+    /// That many steps from a state, each of so many seconds.
+    pub step: &'a dyn Fn(usize, f64) -> Result<Change, FailureKind>,
+    /// Whether errors of energy do not add up.
+    pub has_modified_energy: bool,
+    /// `h` beyond which disturbances grow, s.
+    pub unstable_s: f64,
+    /// Of the step at which probes begin to fail: what is foretold.
+    pub share: f64,
+    /// Steps in question, s.
+    pub range_s: [f64; 2],
+}
+
+/// Steps made from a state.
+pub(super) const FEW_STEPS: usize = 5;
+/// The same of methods that carry momentum across constraints along, which builds up.
+const MANY_STEPS: usize = 12;
+/// Of the step at which probes begin to fail. A run at that step is on a motion of its own, with other
+/// extremes, and looks at far more states than the forecast does: what it meets is a little faster. Measured on
+/// the catalogue, and kept for all methods but those of [`REDUCED_SHARE`].
+pub(super) const SHARE: f64 = 0.8;
+/// Of methods that carry momentum across constraints along: it builds up for longer than a probe lasts.
+const REDUCED_SHARE: f64 = 0.6;
+
+/// How many steps a method is probed with, and the share of the step at which these begin to fail.
+pub(super) fn steps_and_share(method: Method, has_constraints: bool) -> (usize, f64) {
+    match method {
+        Method::EnergyMomentum | Method::ImplicitMidpoint if has_constraints => {
+            (MANY_STEPS, REDUCED_SHARE)
         }
-        all
+        _ => (FEW_STEPS, SHARE),
+    }
+}
+
+/// Ratio of steps in a climb.
+const CLIMB: f64 = 1.3;
+/// Bisections after it: to 1 %.
+const BISECTIONS: usize = 5;
+
+impl Probe<'_> {
+    /// The longest step within bounds, found by climbing from the shortest.
+    ///
+    /// # Cost
+    /// Up to 200 steps from each state, or 400.
+    pub(super) fn forecast(&self, bounds: &Bounds) -> Forecast {
+        let [shortest, longest] = self.range_s;
+        if self.states == 0 {
+            return Forecast { step_s: None, kind: Some(FailureKind::NotFinite) };
+        }
+        let (mut works, mut h) = (None, shortest);
+        // The share is to be within the range.
+        while h * self.share <= longest {
+            if let Some(kind) = self.fails(h, bounds) {
+                let Some(works) = works else { return Forecast { step_s: None, kind: Some(kind) } };
+                return self.between(works, (h, kind), bounds);
+            }
+            works = Some(h);
+            h *= CLIMB;
+        }
+        Forecast::default()
     }
 
-    fn at<S, const N: usize, const C: usize, const U: usize>(
-        system: &S,
-        x: &[f64; N],
-        v: &[f64; N],
-    ) -> Self
-    where
-        S: Lagrangian<N, C>,
-    {
-        let norm = |a: &[f64]| a.iter().map(|a| a * a).sum::<f64>().sqrt();
-        let (inertia, _) = system.inertia_and_force(x, v);
-        let (_, g) = jacobian(x, |q| system.constraints(q));
-        let turn = bend(x, v, |q| system.constraints(q));
-        let right = std::array::from_fn(|i| if i < N { 0.0 } else { -turn[i - N] });
-        let normal = solve_linear::<f64, U>(saddle(&inertia, &g, -1.0, &g, 1.0), right);
-        let bend = normal.map_or(0.0, |a| norm(&a[..N]) / norm(v).max(f64::MIN_POSITIVE));
-        let still = inertia
-            .iter()
-            .zip(v)
-            .map(|(row, vi)| vi * row.iter().zip(v).map(|(m, vj)| m * vj).sum::<f64>());
-        Self {
-            bend: if C == 0 { 0.0 } else { bend },
-            oscillation: oscillation::<S, N, C, U>(system, x, &inertia, &g),
-            kinetic_j: 0.5 * still.sum::<f64>(),
+    fn between(&self, mut works: f64, mut fails: (f64, FailureKind), bounds: &Bounds) -> Forecast {
+        for _ in 0..BISECTIONS {
+            let h = (works * fails.0).sqrt();
+            match self.fails(h, bounds) {
+                None => works = h,
+                Some(kind) => fails = (h, kind),
+            }
         }
+        Forecast { step_s: Some(self.share * works), kind: Some(fails.1) }
+    }
+
+    /// How a run in steps of `h` should fail, if it should.
+    fn fails(&self, h: f64, bounds: &Bounds) -> Option<FailureKind> {
+        if h > self.unstable_s {
+            return Some(FailureKind::Energy);
+        }
+        let mut energies = Vec::with_capacity(self.states);
+        let (mut values, mut rates) = (Vec::new(), Vec::new());
+        // Probes that would fit between two states.
+        let probes = self.spacing_s / (self.steps as f64 * h);
+        for state in 0..self.states {
+            let change = match (self.step)(state, h) {
+                Ok(change) => change,
+                Err(kind) => return Some(kind),
+            };
+            if bounds.is_off(change.largest_energy) {
+                return Some(FailureKind::Energy);
+            }
+            energies.push(change.energy * probes);
+            values.resize(change.constraints.len(), 0.0);
+            rates.resize(change.constraints.len(), 0.0);
+            let drifts = change.rates.iter().chain(std::iter::repeat(&0.0));
+            for ((value, rate), (by, rate_by)) in
+                values.iter_mut().zip(&mut rates).zip(change.constraints.iter().zip(drifts))
+            {
+                *value += *rate * self.spacing_s + by * probes;
+                *rate += rate_by * probes;
+                if !(f64::abs(*value) <= bounds.constraint) {
+                    return Some(FailureKind::Constraint);
+                }
+            }
+        }
+        let trend = match self.has_modified_energy {
+            true => energies.iter().sum::<f64>() / self.states as f64,
+            false => 0.0,
+        };
+        let sums = energies.iter().scan(0.0, |sum, by| {
+            *sum += by - trend;
+            Some(*sum)
+        });
+        sums.into_iter().any(|sum| bounds.is_off(sum)).then_some(FailureKind::Energy)
+    }
+}
+
+/// Whether a method conserves an energy near that of the system, so that errors of energy do not add up:
+/// symplectic methods, symmetric ones on reversible systems, and the one that conserves energy itself (Hairer,
+/// Lubich and Wanner, *Geometric Numerical Integration*, IX and XI). Constraints that are imposed
+/// on accelerations alone take it away.
+pub fn has_modified_energy(method: Method, has_constraints: bool) -> bool {
+    match method {
+        Method::RungeKutta4 | Method::RungeKutta4Projected | Method::DormandPrince8 => false,
+        Method::SemiImplicitEuler => !has_constraints,
+        _ => true,
+    }
+}
+
+/// `Ω h` up to which a method bears an oscillation.
+///
+/// - (2.45) and Verlet's, SHAKE and RATTLE, and semi-implicit Euler: the step's matrix has the trace
+///   `2 − (Ω h)²`, which leaves [−2, 2] at `Ω h = 2`.
+/// - The classical Runge–Kutta method: `|R(i Ω h)| ≤ 1` up to `2√2`. (What it damps below is in the
+///   energies of single steps.)
+/// - The variational method (2.23), the implicit midpoint rule and the energy-momentum method turn a linear
+///   oscillation by `2 atan(Ω h/2)` in a step: their matrices are rotations for every step, backward ones
+///   included (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, VI), and so are those of
+///   compositions. There is no instability; but samples further apart than half a period are as well those
+///   of another, slower oscillation, so that the states met are not those of the accurate motion. Each
+///   stage of a composition counts.
+pub fn oscillation_limit(method: Method) -> f64 {
+    let longest = |stages: &[f64]| stages.iter().fold(0.0_f64, |m, stage| m.max(stage.abs()));
+    match method {
+        Method::Variational
+        | Method::ImplicitMidpoint
+        | Method::EnergyMomentum
+        | Method::LieGroup => PI,
+        Method::Yoshida4 => PI / longest(&YOSHIDA_4),
+        Method::Yoshida6 => PI / longest(&YOSHIDA_6),
+        Method::DormandPrince8 => f64::INFINITY,
+        Method::VariationalEndpoint
+        | Method::Verlet
+        | Method::Shake
+        | Method::VelocityShake
+        | Method::Rattle
+        | Method::SemiImplicitEuler => 2.0,
+        Method::RungeKutta4 | Method::RungeKutta4Projected => 8.0_f64.sqrt(),
     }
 }
 
 /// `Ω` by power iteration on `−∂a/∂x` at rest, kept along the manifold.
-fn oscillation<S, const N: usize, const C: usize, const U: usize>(
+pub(super) fn oscillation<S, const N: usize, const C: usize, const U: usize>(
     system: &S,
     x: &[f64; N],
     inertia: &[[f64; N]; N],
-    g: &[[f64; N]; C],
 ) -> f64
 where
     S: Lagrangian<N, C>,
 {
     const ITERATIONS: usize = 30;
-    let matrix = saddle::<f64, N, C, U>(inertia, g, -1.0, g, 1.0);
+    let (_, g) = jacobian(x, |q| system.constraints(q));
+    let matrix = saddle::<f64, N, C, U>(inertia, &g, -1.0, &g, 1.0);
     let along = |direction: [f64; N]| -> Option<[f64; N]> {
         let pulled: [f64; N] =
             std::array::from_fn(|i| (0..N).map(|j| inertia[i][j] * direction[j]).sum());
@@ -122,37 +263,4 @@ where
         growth = direction.iter().map(|d| d * d).sum::<f64>().sqrt();
     }
     growth.sqrt()
-}
-
-/// The step up to which a method should work for half a minute; `None` where nothing limits it but
-/// accuracy, or no step does.
-///
-/// Each method's share of `1/κ` and of `2/Ω` is calibrated on the problems of this module; what it is
-/// worth on others, a test measures.
-pub fn forecast(method: Method, rates: &Rates) -> Option<f64> {
-    let (bend, oscillation) = match method {
-        Method::Variational => (0.47, 0.5),
-        Method::VariationalEndpoint
-        | Method::Verlet
-        | Method::Shake
-        | Method::VelocityShake
-        | Method::Rattle => (0.47, 0.46),
-        Method::Yoshida4 => (0.27, 0.36),
-        Method::Yoshida6 => (0.37, 0.48),
-        Method::LieGroup => (0.95, f64::INFINITY),
-        Method::ImplicitMidpoint => (0.65, 0.5),
-        Method::EnergyMomentum => (1.2, 0.54),
-        // Constraints drift too far at any step of use.
-        Method::SemiImplicitEuler if rates.bend > 0.0 => return None,
-        Method::SemiImplicitEuler => (0.0, 0.155),
-        Method::RungeKutta4 => (0.085, 0.25),
-        Method::RungeKutta4Projected => (0.6, 0.25),
-        Method::DormandPrince8 => return None,
-    };
-    let limits = [(bend, rates.bend), (2.0 * oscillation, rates.oscillation)];
-    let shortest = limits
-        .into_iter()
-        .filter(|(_, rate)| *rate > 0.0)
-        .fold(f64::INFINITY, |m: f64, (share, rate)| m.min(share / rate));
-    shortest.is_finite().then_some(shortest)
 }

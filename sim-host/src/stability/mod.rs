@@ -2,14 +2,25 @@
 //! beyond, and what was foretold.
 
 mod catalogue;
+mod course;
 mod forecast;
+mod foretell;
 pub mod loop_limits;
+pub mod maps;
 mod problem;
 mod scan;
+mod standing;
+mod tree_catalogue;
+mod trees;
 mod verdict;
 
 pub use catalogue::problems;
-pub use forecast::{Rates, forecast};
+pub use course::Course;
+pub use forecast::{Change, Forecast, Probe, has_modified_energy, oscillation_limit};
+pub use foretell::foretell;
 pub use problem::Problem;
-pub use scan::{Limit, Scan, scan, scan_one};
+pub use scan::{Agreement, Limit, Scan, scan, scan_one, scan_problems};
+pub use standing::standing;
+pub use tree_catalogue::{TreeProblemError, floating_chain, motion_of, tree_problems};
+pub use trees::TreeMotion;
 pub use verdict::{FailureKind, Verdict};

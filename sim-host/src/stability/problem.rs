@@ -1,13 +1,16 @@
 //! A problem: a system, a start, a time, and what its motion must keep.
 
-use super::forecast::Rates;
-use super::verdict::{Bounds, Verdict, attempt};
+use super::course::Course;
+use super::forecast::Forecast;
+use super::foretell::{RANGE_S, bounds, foretell};
+use super::verdict::{Verdict, attempt};
 use crate::integrators::{Method, start_free_body, start_natural};
 use crate::mechanics::systems::FreeRigidBody;
 use crate::mechanics::{Lagrangian, Natural};
 use num_dual::Dual64;
 
 type Attempt = Box<dyn Fn(Method, f64) -> Option<Verdict> + Send + Sync>;
+type Foretell = Box<dyn Fn(Method) -> Option<Forecast> + Send + Sync>;
 
 /// A system, a start, and a time.
 pub struct Problem {
@@ -15,10 +18,16 @@ pub struct Problem {
     pub name: &'static str,
     /// What it is.
     pub description: &'static str,
-    /// How fast its motion is: what forecasts are made from.
-    pub rates: Rates,
-    attempt: Attempt,
+    /// The shortest and the longest step in question, s.
+    pub range_s: [f64; 2],
+    /// Shorter steps than this must go into it a whole number of times, s.
+    pub period_s: Option<f64>,
+    pub(super) attempt: Attempt,
+    pub(super) foretell: Foretell,
 }
+
+/// Time that motions of mechanisms must last, s.
+pub(super) const DURATION_S: f64 = 30.0;
 
 impl Problem {
     /// A free rigid body from a body angular velocity (rad/s).
@@ -30,19 +39,24 @@ impl Problem {
     ) -> Self {
         let q = [1.0, 0.0, 0.0, 0.0];
         let q_dot = FreeRigidBody::rate(&q, &omega);
-        let rates = Rates::along_motion::<_, 4, 1, 5>(&body, q, q_dot, DURATION_S);
-        let bounds = bounds_of(&body, &q, &q_dot, &rates);
+        let start = move |method, h, q, q_dot| start_free_body(method, body, h, q, q_dot);
+        let course = Course::along::<_, 1, 5>(&body, q, q_dot, DURATION_S, start);
+        let bounds = bounds::<_, 4, 1>(&body, &course, (&q, &q_dot), DURATION_S);
         Problem {
             name,
             description,
-            rates,
+            range_s: RANGE_S,
+            period_s: None,
             attempt: Box::new(move |method, h| {
                 attempt(
-                    start_free_body(method, body, h, q, q_dot),
+                    start(method, h, q, q_dot),
                     &bounds,
                     |q, v| body.energy(q, v),
                     |q| largest_constraint::<4, 1>(&body, q),
                 )
+            }),
+            foretell: Box::new(move |method| {
+                foretell::<_, 4, 1>(&body, &course, method, |h, q, v| start(method, h, q, v))
             }),
         }
     }
@@ -57,19 +71,25 @@ impl Problem {
     where
         S: Natural<N, C> + Copy + Send + Sync + 'static,
     {
-        let rates = Rates::along_motion::<_, N, C, U>(&system, x, v, DURATION_S);
-        let bounds = bounds_of::<_, N, C>(&system, &x, &v, &rates);
+        let start =
+            move |method, h, x, v| start_natural::<_, f64, N, C, U>(method, system, h, x, v);
+        let course = Course::along::<_, C, U>(&system, x, v, DURATION_S, start);
+        let bounds = bounds::<_, N, C>(&system, &course, (&x, &v), DURATION_S);
         Problem {
             name,
             description,
-            rates,
+            range_s: RANGE_S,
+            period_s: None,
             attempt: Box::new(move |method, h| {
                 attempt(
-                    start_natural::<_, f64, N, C, U>(method, system, h, x, v),
+                    start(method, h, x, v),
                     &bounds,
                     |q, v| Lagrangian::energy(&system, q, v),
                     |q| largest_constraint::<N, C>(&system, q),
                 )
+            }),
+            foretell: Box::new(move |method| {
+                foretell::<_, N, C>(&system, &course, method, |h, x, v| start(method, h, x, v))
             }),
         }
     }
@@ -78,30 +98,10 @@ impl Problem {
     pub fn attempt(&self, method: Method, h: f64) -> Option<Verdict> {
         (self.attempt)(method, h)
     }
-}
 
-/// Time that motions must last, s.
-pub(super) const DURATION_S: f64 = 30.0;
-/// Share of the largest kinetic energy by which energy may be off.
-const ENERGY_BAND: f64 = 0.1;
-/// Constraints' bound, relative to squares of coordinates.
-const CONSTRAINT: f64 = 0.01;
-
-fn bounds_of<S, const N: usize, const C: usize>(
-    system: &S,
-    x: &[f64; N],
-    v: &[f64; N],
-    rates: &Rates,
-) -> Bounds
-where
-    S: Lagrangian<N, C>,
-{
-    let extent = x.iter().fold(1.0_f64, |m, x| m.max(x * x));
-    Bounds {
-        duration_s: DURATION_S,
-        energy: system.energy(x, v),
-        energy_band: ENERGY_BAND * rates.kinetic_j,
-        constraint: CONSTRAINT * extent,
+    /// The longest step that a method should bear; `None` if it is not made for this system.
+    pub fn forecast(&self, method: Method) -> Option<Forecast> {
+        (self.foretell)(method)
     }
 }
 

@@ -1,18 +1,14 @@
 //! A geometric scan of steps for one method on one problem, and of all on all.
 
 use super::catalogue::problems;
-use super::forecast::forecast;
 use super::problem::Problem;
+use super::tree_catalogue::{TreeProblemError, tree_problems};
 use super::verdict::{FailureKind, Verdict};
 use crate::integrators::Method;
 use serde::Serialize;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The shortest step tried, s.
-const SHORTEST: f64 = 0.005;
-/// The longest step tried, s.
-const LONGEST: f64 = 1.5;
 /// Ratio of neighbours in a scan of everything.
 const RATIO: f64 = 1.02;
 
@@ -31,8 +27,63 @@ pub struct Limit {
     pub kind: Option<FailureKind>,
     /// The longest that works, beyond some that fail, s.
     pub longest_s: Option<f64>,
-    /// What was foretold, s.
+    /// What was foretold, s; none where no step should work, or all should.
     pub forecast_s: Option<f64>,
+    /// How longer steps were foretold to fail; none where all should work.
+    pub forecast_kind: Option<FailureKind>,
+}
+
+/// A forecast beside what was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Agreement {
+    /// Found over foretold: below 1 the forecast was too bold.
+    Ratio(f64),
+    /// Nothing limits the method, and nothing was foretold to.
+    Unlimited,
+    /// No step works, as foretold.
+    NoneWorks,
+    /// A limit was foretold, and all steps work.
+    TooCautious,
+    /// A step was foretold to work, and none does, or none of a length that the forecast allows.
+    TooBold,
+}
+
+impl Limit {
+    /// The forecast beside what was found.
+    pub fn agreement(&self) -> Agreement {
+        match (self.works_to_s, self.fails_from_s, self.forecast_s, self.forecast_kind) {
+            (Some(_), None, None, None) => Agreement::Unlimited,
+            (Some(_), None, None, Some(_)) => Agreement::TooCautious,
+            (Some(works), None, Some(foretold), _) if works > 2.0 * foretold => {
+                Agreement::TooCautious
+            }
+            (Some(works), _, Some(foretold), _) => Agreement::Ratio(works / foretold),
+            (None, _, None, Some(_)) => Agreement::NoneWorks,
+            (Some(_), Some(_), None, Some(_)) => Agreement::TooCautious,
+            (_, Some(_), None, None) | (None, _, Some(_), _) => Agreement::TooBold,
+            (None, None, None, None) => Agreement::Unlimited,
+        }
+    }
+}
+
+impl Agreement {
+    /// Whether it is within a factor of two.
+    pub fn is_near(self) -> bool {
+        match self {
+            Self::Ratio(ratio) => (0.5..=2.0).contains(&ratio),
+            Self::Unlimited | Self::NoneWorks => true,
+            Self::TooCautious | Self::TooBold => false,
+        }
+    }
+
+    /// Whether the forecast is too long by more than a tenth.
+    pub fn is_unsafe(self) -> bool {
+        match self {
+            Self::Ratio(ratio) => ratio < 1.0 / 1.1,
+            Self::TooBold => true,
+            _ => false,
+        }
+    }
 }
 
 /// All limits.
@@ -40,12 +91,15 @@ pub struct Limit {
 pub struct Scan {
     /// Ratio of neighbouring steps.
     pub ratio: f64,
+    /// Problems' names, and what they are.
+    pub problems: Vec<(&'static str, &'static str)>,
     /// One for each method and problem that go together.
     pub limits: Vec<Limit>,
 }
 
 /// Scans one method on one problem, with steps in a ratio; `None` if it is not made for it.
 pub fn scan_one(problem: &Problem, method: Method, ratio: f64) -> Option<Limit> {
+    let forecast = problem.forecast(method)?;
     let mut limit = Limit {
         problem: problem.name,
         method,
@@ -53,10 +107,10 @@ pub fn scan_one(problem: &Problem, method: Method, ratio: f64) -> Option<Limit> 
         fails_from_s: None,
         kind: None,
         longest_s: None,
-        forecast_s: forecast(method, &problem.rates),
+        forecast_s: forecast.step_s,
+        forecast_kind: forecast.kind,
     };
-    let mut h = SHORTEST;
-    while h <= LONGEST {
+    for h in steps(problem, ratio) {
         match problem.attempt(method, h)? {
             Verdict::Works => {
                 limit.longest_s = Some(h);
@@ -69,14 +123,38 @@ pub fn scan_one(problem: &Problem, method: Method, ratio: f64) -> Option<Limit> 
             }
             Verdict::Fails { .. } => {}
         }
-        h *= ratio;
     }
     Some(limit)
 }
 
+/// Steps in a ratio, the shortest first; those below a period go into it a whole number of times.
+fn steps(problem: &Problem, ratio: f64) -> Vec<f64> {
+    let [shortest, longest] = problem.range_s;
+    let all = std::iter::successors(Some(shortest), |h| Some(h * ratio));
+    // Round-off must not cost the longest.
+    let all = all.take_while(|h| *h <= longest * (1.0 + 1e-9));
+    let Some(period_s) = problem.period_s else { return all.collect() };
+    let shortened = |h: f64| match h < period_s {
+        true => period_s / (period_s / h - 1e-9).ceil(),
+        false => h,
+    };
+    let mut steps: Vec<f64> = all.map(shortened).collect();
+    steps.dedup();
+    steps
+}
+
 /// Scans everything on all processors; `done` hears of each finished share of the work, of how many.
-pub fn scan(done: &(dyn Fn(usize, usize) + Sync)) -> Scan {
-    let problems = problems();
+///
+/// # Errors
+/// Never for the catalogue as shipped.
+pub fn scan(done: &(dyn Fn(usize, usize) + Sync)) -> Result<Scan, TreeProblemError> {
+    let mut problems = problems();
+    problems.extend(tree_problems()?);
+    Ok(scan_problems(&problems, done))
+}
+
+/// The same of these problems.
+pub fn scan_problems(problems: &[Problem], done: &(dyn Fn(usize, usize) + Sync)) -> Scan {
     let work: Vec<(&Problem, Method)> = problems
         .iter()
         .flat_map(|problem| Method::all().iter().map(move |method| (problem, *method)))
@@ -102,5 +180,9 @@ pub fn scan(done: &(dyn Fn(usize, usize) + Sync)) -> Scan {
     });
     let mut found = found.into_inner().unwrap_or_default();
     found.sort_by_key(|(at, _)| *at);
-    Scan { ratio: RATIO, limits: found.into_iter().map(|(_, limit)| limit).collect() }
+    Scan {
+        ratio: RATIO,
+        problems: problems.iter().map(|problem| (problem.name, problem.description)).collect(),
+        limits: found.into_iter().map(|(_, limit)| limit).collect(),
+    }
 }

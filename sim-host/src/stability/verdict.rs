@@ -2,10 +2,10 @@
 
 use crate::integrators::{Motion, StartError, StepError, StepFailure};
 use crate::newton::NewtonFailure;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How a motion ended.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// All steps were made, and energy and constraints stayed within bounds.
@@ -20,7 +20,7 @@ pub enum Verdict {
 }
 
 /// How a motion fails.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FailureKind {
     /// The step's equations have no root nearby.
@@ -39,6 +39,10 @@ pub enum FailureKind {
     Energy,
     /// A constraint left its bounds.
     Constraint,
+    /// Velocities or torques grew beyond any motion of the robot.
+    Runaway,
+    /// The robot fell, slid away, or did not come to rest at its set point.
+    Unbalanced,
 }
 
 impl FailureKind {
@@ -53,6 +57,8 @@ impl FailureKind {
             Self::Tolerance => "tolerance",
             Self::Energy => "energy",
             Self::Constraint => "constraint",
+            Self::Runaway => "runaway",
+            Self::Unbalanced => "unbalanced",
         }
     }
 }
@@ -72,6 +78,7 @@ impl From<StepError> for FailureKind {
 }
 
 /// What a motion must keep.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     /// Time that it must last, s.
     pub duration_s: f64,
@@ -79,8 +86,18 @@ pub(super) struct Bounds {
     pub energy: f64,
     /// How far from that it may be, J.
     pub energy_band: f64,
+    /// Whether energy may fall as far as it likes: where the floor or dampers take it.
+    pub dissipates: bool,
     /// Size that constraints may have.
     pub constraint: f64,
+}
+
+impl Bounds {
+    /// Whether energy that differs by so much from that of the start is out of bounds.
+    pub fn is_off(&self, by: f64) -> bool {
+        let beyond = if self.dissipates { by } else { by.abs() };
+        !(beyond <= self.energy_band)
+    }
 }
 
 /// Makes a motion and judges it. `None` where the method is not made for the system.
@@ -108,7 +125,7 @@ pub(super) fn attempt<const N: usize>(
             Ok(velocity) => velocity,
             Err(error) => return fails(error.into(), time_s),
         };
-        let off = (energy(motion.configuration(), &velocity) - bounds.energy).abs();
+        let off = energy(motion.configuration(), &velocity) - bounds.energy;
         let apart = constraint(motion.configuration());
         if !(off.is_finite() && apart.is_finite()) {
             return fails(FailureKind::NotFinite, time_s);
@@ -116,7 +133,7 @@ pub(super) fn attempt<const N: usize>(
         if apart > bounds.constraint {
             return fails(FailureKind::Constraint, time_s);
         }
-        if off > bounds.energy_band {
+        if bounds.is_off(off) {
             return fails(FailureKind::Energy, time_s);
         }
     }

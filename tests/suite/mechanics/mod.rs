@@ -5,6 +5,7 @@ mod equivalence;
 mod forces;
 mod invariants;
 mod limits;
+mod maps;
 mod stability;
 mod systems;
 mod tables;

@@ -1,8 +1,9 @@
 //! How long steps may be: what is foretold against what is found.
 
 use super::trees::{floating_chain, mixed_tree};
-use surefoot_sim::integrators::StepFailure;
+use surefoot_sim::integrators::{Method, StepFailure};
 use surefoot_sim::multibody::{BodyState, Chain, ChainJoint, Simulation, StepForecast, System};
+use surefoot_sim::stability::{TreeMotion, scan_one};
 
 const SECONDS: f64 = 1.0;
 
@@ -43,9 +44,8 @@ fn hanging(links: usize, joint: ChainJoint, bend: f64) -> Start {
     (chain.system().expect("a system"), chain.bent(bend), still)
 }
 
-/// On motions that the forecast's two constants were not measured on.
-#[test]
-fn longest_steps_are_foretold() {
+/// Hanging chains and trees afloat, slow and fast.
+fn motions() -> Vec<(String, Start)> {
     let faster = |(system, states, rates): Start, by: f64| {
         (system, states, rates.into_iter().map(|r| r.map(|x| by * x)).collect())
     };
@@ -65,6 +65,13 @@ fn longest_steps_are_foretold() {
         }
         motions.push((format!("tree, {by} times"), faster(mixed_tree(25), by)));
     }
+    motions
+}
+
+/// On motions that the forecast's two constants were not measured on.
+#[test]
+fn longest_steps_are_foretold() {
+    let motions = motions();
     let (mut within, mut too_long, mut most) = (0, 0, 0.0_f64);
     for (name, start) in &motions {
         let forecast = foretold(start).step_s().expect("a limit");
@@ -83,6 +90,25 @@ fn longest_steps_are_foretold() {
     assert!(10 * within >= 9 * motions.len());
     // Those that whip about are not foretold to a tenth.
     assert!(6 * too_long <= motions.len() && most < 2.0, "{too_long}, {most}");
+}
+
+/// The forecast of `chart stability`, on the same motions; none was used to make it.
+#[test]
+fn longest_steps_are_foretold_by_probes() {
+    let (mut near, mut bold, mut cells) = (0, 0, 0);
+    for (name, (system, states, rates)) in motions() {
+        let motion = TreeMotion { system, states, rates, duration_s: SECONDS };
+        let problem = motion.problem("tree", "");
+        let limit = scan_one(&problem, Method::Variational, 1.03).expect("made for it");
+        let agreement = limit.agreement();
+        println!("{name}: {agreement:?}, {:?} by {:?}", limit.works_to_s, limit.kind);
+        cells += 1;
+        near += usize::from(agreement.is_near());
+        bold += usize::from(agreement.is_unsafe());
+    }
+    println!("{near} of {cells} within a factor of two; {bold} more than a tenth too long");
+    assert!(10 * near >= 9 * cells);
+    assert_eq!(bold, 0);
 }
 
 /// A step far too long is a failure with its reason, or is made in shorter ones and counted.

@@ -2,8 +2,11 @@
 
 mod limits;
 mod limits_table;
+mod map_picture;
+mod maps;
 mod parsimony;
 mod precision;
+mod stability;
 mod steps;
 
 use crate::stability::loop_limits::Quantity;
@@ -24,6 +27,12 @@ pub struct Options {
     /// Of stability, with `--scene`: only this limit; may be given more than once
     #[arg(long, value_enum, requires = "scene")]
     only: Vec<Quantity>,
+    /// Without `--scene`: only the longest steps, or only the maps
+    #[arg(long, value_enum, conflicts_with = "scene")]
+    part: Option<Part>,
+    /// Cells along each side of a map
+    #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u16).range(2..=200))]
+    cells: u16,
     /// Forget what an earlier call has found
     #[arg(long)]
     fresh: bool,
@@ -41,8 +50,8 @@ pub struct Options {
 /// What can be charted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum What {
-    /// The longest step of each method on each problem, how it fails beyond, and what was foretold; of a
-    /// robot's scene, how far its control loop goes
+    /// The longest step of each method on each problem, how it fails beyond, and what was foretold, with maps in
+    /// two parameters; of a robot's scene, how far its control loop goes
     Stability,
     /// What models of different size cost for one motion, and how far they are off
     Parsimony,
@@ -52,15 +61,25 @@ enum What {
     All,
 }
 
+/// A part of a chart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Part {
+    /// The longest step of each method on each problem
+    Steps,
+    /// The maps in two parameters
+    Maps,
+}
+
 /// Charts.
 pub fn chart(options: &Options) -> ExitCode {
     match (options.what, &options.scene) {
-        (What::Stability, None) => steps::scan_steps(options),
+        (What::Stability, None) => stability::chart_stability(options),
         (What::Stability, Some(scene)) => limits::find_limits(scene, options),
         (What::Parsimony, _) => parsimony::chart_parsimony(options),
         (What::WorkPrecision, _) => precision::work_precision(options),
         (What::All, _) => {
-            let charts = [steps::scan_steps, precision::work_precision, parsimony::chart_parsimony];
+            let charts =
+                [stability::chart_stability, precision::work_precision, parsimony::chart_parsimony];
             let failed =
                 charts.map(|chart| chart(options)).into_iter().find(|c| *c != ExitCode::SUCCESS);
             failed.unwrap_or(ExitCode::SUCCESS)

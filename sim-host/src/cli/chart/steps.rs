@@ -1,36 +1,41 @@
 //! `surefoot chart stability`: the longest steps of methods on mechanisms.
 
-use super::super::{bad_input, say};
-use super::Options;
-use crate::stability::{Limit, Scan, problems, scan};
+use crate::report::{StepRow, StepTable};
+use crate::stability::{Agreement, FailureKind, Limit, Scan, scan};
 use indicatif::ProgressBar;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
-/// Scans all methods on all problems.
-pub(super) fn scan_steps(options: &Options) -> ExitCode {
+/// Scans all methods on all problems, with a bar over them.
+pub(super) fn scan_steps() -> Result<Scan, String> {
     let bar = ProgressBar::new(0);
     let scan = scan(&|done, all| {
         bar.set_length(all as u64);
         bar.set_position(done as u64);
     });
     bar.finish_and_clear();
-    let file = match write_csv(&options.out, &scan) {
-        Ok(file) => file,
-        Err(message) => return bad_input(&message, options.json),
-    };
-    if options.json {
-        let document = serde_json::json!({ "chart": "stability", "scan": scan, "file": file });
-        say(&format!("{document:#}\n"));
-    } else {
-        say(&text(&scan));
-        say(&format!("written: {}\n", file.display()));
-    }
-    ExitCode::SUCCESS
+    scan.map_err(|error| error.to_string())
 }
 
-fn text(scan: &Scan) -> String {
+/// The tables for a page.
+pub(super) fn tables(scan: &Scan) -> Vec<StepTable> {
+    let row = |limit: &Limit| StepRow {
+        method: limit.method.name(),
+        works_to: limit.works_to_s.map_or("none".into(), seconds),
+        fails_by: limit.kind.map_or("–", FailureKind::words).to_owned(),
+        foretold: foretold(limit),
+        foretold_by: limit.forecast_kind.map_or("–", FailureKind::words).to_owned(),
+        ratio: agreement(limit),
+    };
+    let table = |(name, description): &(&'static str, &'static str)| StepTable {
+        name: (*name).to_owned(),
+        description: (*description).to_owned(),
+        rows: scan.limits.iter().filter(|limit| limit.problem == *name).map(row).collect(),
+    };
+    scan.problems.iter().map(table).collect()
+}
+
+pub(super) fn text(scan: &Scan) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -39,10 +44,10 @@ fn text(scan: &Scan) -> String {
          largest kinetic energy, constraints within a hundredth of their terms.",
         100.0 * (scan.ratio - 1.0),
     );
-    for problem in problems() {
+    for (name, description) in &scan.problems {
         let limits: Vec<&Limit> =
-            scan.limits.iter().filter(|limit| limit.problem == problem.name).collect();
-        let _ = writeln!(out, "\n{}: {}", problem.name, problem.description);
+            scan.limits.iter().filter(|limit| limit.problem == *name).collect();
+        let _ = writeln!(out, "\n{name}: {description}");
         let _ = writeln!(
             out,
             "  {:<24}{:>10}{:>12}  {:<14}{:>10}{:>9}",
@@ -56,35 +61,52 @@ fn text(scan: &Scan) -> String {
                 limit.works_to_s.map_or("none".into(), seconds),
                 limit.fails_from_s.map_or("–".into(), seconds),
                 limit.kind.map_or("", |kind| kind.words()),
-                limit.forecast_s.map_or("–".into(), seconds),
-                ratio(limit).map_or("–".into(), |ratio| format!("{ratio:.2}")),
+                foretold(limit),
+                agreement(limit),
             );
         }
     }
-    let ratios: Vec<f64> = scan.limits.iter().filter_map(ratio).collect();
-    let within = ratios.iter().filter(|ratio| (0.5..=2.0).contains(*ratio)).count();
-    let unsafe_side = ratios.iter().filter(|ratio| **ratio < 0.9).count();
-    let _ = writeln!(
-        out,
-        "\nForetold within a factor of two: {within} of {}; more than 10 % too long: {unsafe_side}.",
-        ratios.len(),
-    );
+    out.push('\n');
+    out.push_str(&counts(&scan.limits));
     out
 }
 
-fn seconds(time: f64) -> String {
+/// How many forecasts hold.
+pub(super) fn counts(limits: &[Limit]) -> String {
+    let near = limits.iter().filter(|limit| limit.agreement().is_near()).count();
+    let unsafe_side = limits.iter().filter(|limit| limit.agreement().is_unsafe()).count();
+    format!(
+        "Foretold within a factor of two: {near} of {}; more than 10 % too long: {unsafe_side}.\n",
+        limits.len(),
+    )
+}
+
+/// The step foretold.
+pub(super) fn foretold(limit: &Limit) -> String {
+    match (limit.forecast_s, limit.forecast_kind) {
+        (Some(step_s), _) => seconds(step_s),
+        (None, Some(_)) => "none".to_owned(),
+        (None, None) => "no limit".to_owned(),
+    }
+}
+
+pub(super) fn seconds(time: f64) -> String {
     format!("{time:.4} s")
 }
 
-/// Observed over foretold: below 1 the forecast was too bold.
-fn ratio(limit: &Limit) -> Option<f64> {
-    Some(limit.works_to_s? / limit.forecast_s?)
+/// Found over foretold, in words.
+pub(super) fn agreement(limit: &Limit) -> String {
+    match limit.agreement() {
+        Agreement::Ratio(ratio) => format!("{ratio:.2}"),
+        Agreement::Unlimited | Agreement::NoneWorks => "as told".to_owned(),
+        Agreement::TooCautious => "cautious".to_owned(),
+        Agreement::TooBold => "bold".to_owned(),
+    }
 }
 
-fn write_csv(folder: &Path, scan: &Scan) -> Result<PathBuf, String> {
+pub(super) fn write_csv(folder: &Path, scan: &Scan) -> Result<PathBuf, String> {
     let path = folder.join("stability.csv");
     let context = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-    std::fs::create_dir_all(folder).map_err(|error| context(&error))?;
     let mut writer = csv::Writer::from_path(&path).map_err(|error| context(&error))?;
     for limit in &scan.limits {
         writer.serialize(limit).map_err(|error| context(&error))?;

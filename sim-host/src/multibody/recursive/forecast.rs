@@ -98,7 +98,7 @@ impl Simulation {
     }
 
     /// `Ω`: root of the largest eigenvalue of the slope of accelerations at rest, by the power method, rad/s.
-    fn fastest_swing(&mut self) -> Result<f64, StepError> {
+    pub(crate) fn fastest_swing(&mut self) -> Result<f64, StepError> {
         if self.system.gravity() == 0.0 {
             return Ok(0.0);
         }

@@ -54,7 +54,7 @@ impl Store {
             HALVINGS as f64,
         ];
         let rules = format!("{scene:?} {criterion:?} {searches:?} {numbers:?} {RULES}");
-        let fingerprint = format!("{:016x}", hash(hash(SEED, rules.as_bytes()), program));
+        let fingerprint = fingerprint(&[rules.as_bytes(), program]);
         Self { path: path.to_owned(), fingerprint }
     }
 
@@ -101,6 +101,11 @@ impl Store {
     fn error(&self, reason: &dyn std::fmt::Display) -> StoreError {
         StoreError { path: self.path.clone(), reason: reason.to_string() }
     }
+}
+
+/// A number in hexadecimal digits that tells these bytes from others.
+pub(in crate::stability) fn fingerprint(parts: &[&[u8]]) -> String {
+    format!("{:016x}", parts.iter().fold(SEED, |so_far, part| hash(so_far, part)))
 }
 
 const SEED: u64 = 0xcbf2_9ce4_8422_2325;

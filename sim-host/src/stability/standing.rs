@@ -1,0 +1,121 @@
+//! The standing robot: how long the plant's steps may be under the controller.
+
+use super::forecast::Forecast;
+use super::loop_limits::{Criterion, Ending, Manner, play};
+use super::maps::should_work;
+use super::problem::Problem;
+use super::verdict::{FailureKind, Verdict};
+use crate::integrators::Method;
+use crate::multibody::{Simulation, StepForecast, states_of_tree, system_of_tree};
+use crate::plant::{OnFloor, Plant};
+use crate::scene::{Feet, Scene};
+use surefoot::model::robots::biped::TREE;
+
+/// Steps in question, s.
+const RANGE_S: [f64; 2] = [5e-5, 0.2];
+/// Bisections of the sampled loop's limit.
+const BISECTIONS: usize = 8;
+/// Samples of a run to a forecast of how fast the robot turns.
+const EVERY: usize = 20;
+
+/// A robot's scene on both plants, for so many seconds at least. A control period has a whole number of
+/// steps: those that are asked for are shortened to that, and where they are longer, the period is one step.
+pub fn standing(scene: Scene, least_duration_s: f64) -> Problem {
+    let period_s = 1.0 / scene.controller.rate_hz;
+    let foretold = scene.clone();
+    Problem {
+        name: "biped-standing",
+        description: "Experiment 1 under its controller; steps go into its period of 2 ms, longer ones are its period",
+        range_s: RANGE_S,
+        period_s: Some(period_s),
+        attempt: Box::new(move |method, h| {
+            is_plant(method).then(|| attempt(&scene, least_duration_s, method, h))
+        }),
+        foretell: Box::new(move |method| {
+            is_plant(method).then(|| forecast(&foretold, least_duration_s, method))
+        }),
+    }
+}
+
+fn is_plant(method: Method) -> bool {
+    matches!(method, Method::Variational | Method::SemiImplicitEuler)
+}
+
+fn attempt(scene: &Scene, least_duration_s: f64, method: Method, h: f64) -> Verdict {
+    let criterion = Criterion { least_duration_s, ..Criterion::default() };
+    let mut scene = scene.clone();
+    let period_s = 1.0 / scene.controller.rate_hz;
+    let step_s = if h > period_s {
+        scene.controller.rate_hz = 1.0 / h;
+        h
+    } else {
+        // A ratio that is whole but for round-off is whole.
+        period_s / (period_s / h - 1e-9).ceil().max(1.0)
+    };
+    (scene.integrator.name, scene.integrator.step_s) = (method, step_s);
+    scene.duration_s = scene.duration_s.max(criterion.least_duration_s);
+    let (run, fault) = play(&scene);
+    let time_s = run.samples.last().map_or(0.0, |sample| sample.time_s);
+    match (Ending { scene: &scene, run: &run, fault }).manner(&criterion) {
+        None => Verdict::Works,
+        Some(manner) => Verdict::Fails { kind: kind(method, manner), time_s },
+    }
+}
+
+fn kind(method: Method, manner: Manner) -> FailureKind {
+    match manner {
+        Manner::StepFailure if method == Method::Variational => FailureKind::NoRoot,
+        Manner::StepFailure | Manner::Runaway => FailureKind::Runaway,
+        _ => FailureKind::Unbalanced,
+    }
+}
+
+/// The baseline plant knows its floor's limit. Of the variational one the floor limits nothing: what does is
+/// how far a body turns in a step, on the run in the scene's own steps. Of either, steps that are control periods
+/// are limited by what the sampled loop asks of the ground.
+fn forecast(scene: &Scene, least_duration_s: f64, method: Method) -> Forecast {
+    let plant = match (method, &scene.feet) {
+        (Method::SemiImplicitEuler, Feet::Floor { outline, floor }) => {
+            let stops = scene.acting.joint_stops.map(|stops| stops.in_radians());
+            let plant = OnFloor::new(scene.initial.state(), *floor, &outline.sole());
+            (plant.with_stops(stops).step_limit(), FailureKind::Runaway)
+        }
+        (Method::Variational, _) => (turning(scene).turning_s, FailureKind::NoRoot),
+        _ => (None, FailureKind::Runaway),
+    };
+    let criterion = Criterion { least_duration_s, ..Criterion::default() };
+    let works = |period_s: f64| {
+        let mut scene = scene.clone();
+        scene.controller.rate_hz = 1.0 / period_s;
+        scene.integrator.step_s = period_s / (period_s / scene.integrator.step_s).ceil();
+        should_work(&scene, &criterion)
+    };
+    let (mut low, mut high) = (1.0 / scene.controller.rate_hz, RANGE_S[1]);
+    for _ in 0..BISECTIONS {
+        let middle = (low * high).sqrt();
+        *(if works(middle) { &mut low } else { &mut high }) = middle;
+    }
+    let sampled = (Some(low), FailureKind::Unbalanced);
+    let (step_s, kind) = match plant {
+        (Some(step_s), _) if step_s < low => plant,
+        _ => sampled,
+    };
+    Forecast { step_s, kind: Some(kind) }
+}
+
+/// How fast bodies turn in the run of a scene.
+fn turning(scene: &Scene) -> StepForecast {
+    let mut all = StepForecast::default();
+    let (run, _) = play(scene);
+    for sample in run.samples.iter().step_by(EVERY) {
+        let here = states_of_tree(&TREE, &sample.positions, &sample.velocities).ok();
+        let forecast = here.and_then(|(states, rates)| {
+            let h = scene.integrator.step_s;
+            let mut simulation =
+                Simulation::new(system_of_tree(&TREE).ok()?, h, &states, &rates).ok()?;
+            simulation.forecast().ok()
+        });
+        all = forecast.map_or(all, |forecast| all.and(forecast));
+    }
+    all
+}
