@@ -58,7 +58,7 @@ pub trait Course {
     /// A [`Trouble`].
     fn step(&mut self) -> Result<(), Trouble>;
 
-    /// Where it is: coordinates that are the same for all methods. Of bodies [`landmarks`].
+    /// Where it is: coordinates that are the same for all methods. Of bodies their landmarks.
     ///
     /// # Errors
     /// A [`Trouble`] where that cannot be told.
