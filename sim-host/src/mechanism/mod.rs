@@ -3,6 +3,8 @@
 mod merged;
 mod moving;
 mod run;
+mod start;
 
-pub use moving::{Moving, StartFailure, start, start_bodies, start_within};
+pub use moving::Moving;
 pub use run::{MechanismRun, MechanismSample, run, run_from};
+pub use start::{StartFailure, start, start_bodies, start_within};

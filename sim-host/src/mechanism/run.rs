@@ -1,6 +1,7 @@
 //! One run.
 
-use super::moving::{Moving, StartFailure, start};
+use super::moving::Moving;
+use super::start::{StartFailure, start};
 use crate::contact::{ContactPoint, ContactState};
 use crate::integrators::{Progress, StepError};
 use crate::record::{Event, EventKind, SavedRun};

@@ -6,9 +6,10 @@
 //! taken at its joint, freed of the joint's columns one by one, and handed inboard.
 
 use super::bond::Bond;
+use super::end::End;
 use super::node::{Kind, Node, Place};
-use super::step::{End, Touch, Trial};
 use super::stiffness::{Column, Pair, Stiffness};
+use super::trial::{Touch, Trial};
 use super::turn::skew;
 use nalgebra::{Matrix3, Vector3};
 

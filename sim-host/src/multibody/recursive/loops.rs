@@ -13,8 +13,8 @@ use super::super::system::{System, WORLD};
 use super::super::{BodyState, Rows};
 use super::elimination::Elimination;
 use super::node::{Node, Place};
-use super::step::Trial;
 use super::stiffness::Pair;
+use super::trial::Trial;
 use nalgebra::Vector3;
 
 /// All closures' constraints, one after the other.

@@ -11,6 +11,7 @@ mod bond;
 mod checkpoint;
 mod coordinates;
 mod elimination;
+mod end;
 mod forecast;
 mod loops;
 mod motors;
@@ -22,6 +23,7 @@ mod stages;
 mod step;
 mod stiffness;
 mod strike;
+mod trial;
 mod turn;
 
 pub use checkpoint::Checkpoint;

@@ -7,7 +7,7 @@ use super::super::gimbal::{Gimbal, GimbalPose};
 use super::super::system::System;
 use super::node::{Kind, Node, Place};
 use super::simulation::Simulation;
-use super::step::{Loads, Trial};
+use super::trial::{Loads, Trial};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};

@@ -2,7 +2,8 @@
 
 use super::node::Place;
 use super::simulation::Simulation;
-use super::step::{Step, Trial};
+use super::step::Step;
+use super::trial::Trial;
 use crate::integrators::{Progress, StepError, StepFailure};
 use crate::newton::NewtonFailure;
 

@@ -16,80 +16,15 @@
 //! Forces are taken at the points where they act, half at the step's beginning and half at its end, with
 //! the arms of either: then their moment about any point is that of the mean position.
 
-use super::coordinates::Increment;
+use super::end::End;
 use super::loops::Loops;
 use super::node::{Kind, Node, Place};
 use super::stiffness::Pair;
-use super::strike::Strike;
+use super::trial::{Law, Loads, Trial};
 use super::turn::Turn;
-use crate::contact::{BoxPoint, ContactPoint, StepForce};
-use crate::multibody::{JointLaw, System};
-use nalgebra::{Matrix3, Vector3};
-
-/// Where a body is at the trial's end, and the impulse on it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct End {
-    pub turn: Turn,
-    /// Of the reference point.
-    pub displacement: Vector3<f64>,
-    pub to_center: Vector3<f64>,
-    pub from_inboard: Vector3<f64>,
-    pub axes: [Vector3<f64>; 3],
-    /// `d`
-    pub velocity: Vector3<f64>,
-    /// `I v`
-    pub inertia_turn: Vector3<f64>,
-    /// `L`
-    pub spin: Vector3<f64>,
-    /// `w⁻` about the reference point: the body's own, then that of all outboard.
-    pub own: Pair,
-    pub all: Pair,
-}
-
-/// A point that can touch the floor.
-#[derive(Clone, Debug)]
-pub(super) struct Touch {
-    /// In the body.
-    pub arm: Vector3<f64>,
-    /// From the centre of mass at the beginning, and at the trial's end.
-    pub begin: Vector3<f64>,
-    pub end: Vector3<f64>,
-    pub force: StepForce,
-}
-
-/// A joint's law and its column.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Law {
-    pub node: usize,
-    pub column: usize,
-    pub law: JointLaw,
-}
-
-/// What is held over a step.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Loads {
-    /// By column, N·m or N.
-    pub torques: Vec<f64>,
-    /// By link: on the centre of mass, world axes.
-    pub wrenches: Vec<Pair>,
-}
-
-/// A trial of a step's end, and what is known of it.
-#[derive(Clone, Debug)]
-pub(super) struct Trial {
-    pub increments: Vec<Increment>,
-    pub ends: Vec<End>,
-    pub touches: Vec<Touch>,
-    pub strikes: Vec<Strike>,
-    pub laws: Vec<Law>,
-    /// Torques of spherical joints' motors at the step's beginning, world axes, with their first columns.
-    pub motor_torques: Vec<(usize, Vector3<f64>)>,
-    /// By column: `½h τ`, and its derivative.
-    pub own_impulses: Vec<f64>,
-    pub own_slopes: Vec<f64>,
-    /// `r`
-    pub residuals: Vec<f64>,
-}
+use crate::contact::{BoxPoint, ContactPoint};
+use crate::multibody::System;
+use nalgebra::Vector3;
 
 /// What stays the same over all trials of a step.
 pub(super) struct Step<'a> {
@@ -105,54 +40,6 @@ pub(super) struct Step<'a> {
 }
 
 impl Trial {
-    pub fn new(system: &System, nodes: &[Node], columns: usize) -> Self {
-        let end = End {
-            turn: Turn::NONE,
-            displacement: Vector3::zeros(),
-            to_center: Vector3::zeros(),
-            from_inboard: Vector3::zeros(),
-            axes: [Vector3::zeros(); 3],
-            velocity: Vector3::zeros(),
-            inertia_turn: Vector3::zeros(),
-            spin: Vector3::zeros(),
-            own: Pair::ZERO,
-            all: Pair::ZERO,
-        };
-        let touch = |position: [f64; 3]| Touch {
-            arm: position.into(),
-            begin: Vector3::zeros(),
-            end: Vector3::zeros(),
-            force: StepForce {
-                force: Vector3::zeros(),
-                slope: Matrix3::zeros(),
-                point: ContactPoint::default(),
-            },
-        };
-        Self {
-            increments: vec![Increment::NONE; nodes.len()],
-            ends: vec![end; nodes.len()],
-            touches: system.sites().iter().map(|site| touch(site.position)).collect(),
-            strikes: Strike::all(system),
-            laws: system
-                .laws()
-                .iter()
-                .map(|(node, law)| Law {
-                    node: *node,
-                    column: nodes[*node].columns.start,
-                    law: *law,
-                })
-                .collect(),
-            motor_torques: system
-                .gimbals()
-                .iter()
-                .map(|(link, _)| (nodes[*link].columns.start, Vector3::zeros()))
-                .collect(),
-            own_impulses: vec![0.0; columns],
-            own_slopes: vec![0.0; columns],
-            residuals: vec![0.0; columns],
-        }
-    }
-
     /// Positions of the contact sites and of strikers' points, where a step begins.
     pub fn begin(
         &mut self,

@@ -9,8 +9,8 @@
 //! `F` acts on the striker and `−F` on the body struck, half at the step's beginning and half at its end, at
 //! the same places `p⁻` and `p⁺`: momentum and moment of momentum are kept exactly.
 
+use super::end::End;
 use super::node::Place;
-use super::step::End;
 use super::stiffness::{Pair, Stiffness};
 use super::turn::Turn;
 use crate::contact::{BoxForce, BoxPoint};
