@@ -33,9 +33,11 @@ pub struct Choice {
     pub fails_from_s: Option<f64>,
 }
 
-/// The shortest step of a curve that fails, s.
+/// The shortest step of a curve that fails, s. A method that chooses its steps has none: with a tolerance
+/// that is too loose it fails at steps of any length.
 fn fails_from(curve: &Curve) -> Option<f64> {
-    let failing = curve.measurements.iter().filter(|m| m.failure.is_some());
+    let failing =
+        curve.measurements.iter().filter(|m| m.failure.is_some() && m.tolerance.is_none());
     failing.map(|m| m.step_s).min_by(f64::total_cmp)
 }
 
