@@ -428,7 +428,7 @@ fn limits_are_charted_and_taken_up_again() {
     for (arguments, word) in [
         (&["chart", "stability", "--scene", "chain"], "nobody controls"),
         (&["chart", "stability", "--scene", "experiment-3"], "no scene"),
-        (&["chart", "stability", "--fresh", "--json"], "--scene"),
+        (&["chart", "stability", "--only", "friction"], "--scene"),
     ] {
         let (status, _, stderr) = said(&surefoot(&folder, arguments));
         assert_eq!(status, Some(2));
