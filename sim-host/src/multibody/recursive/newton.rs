@@ -53,16 +53,16 @@ impl Simulation {
                 break;
             }
         }
+        self.conclude(result)
+    }
+
+    /// Counts the step, or goes back to where it began.
+    pub(super) fn conclude(&mut self, result: Result<(), StepError>) -> Result<(), StepError> {
         match result {
-            Ok(()) => {
-                self.at.progress.advance();
-                Ok(())
-            }
-            Err(error) => {
-                self.restore_saved();
-                Err(error)
-            }
+            Ok(()) => self.at.progress.advance(),
+            Err(_) => self.restore_saved(),
         }
+        result
     }
 
     /// Shorter steps now and then do no harm; by the dozen they turn the method into another one, whose
@@ -76,7 +76,7 @@ impl Simulation {
         Err(progress.error(StepFailure::TooManySplits { splits }))
     }
 
-    pub(super) fn restore_saved(&mut self) {
+    fn restore_saved(&mut self) {
         self.at.copy_from(&self.saved);
         self.find_places();
     }

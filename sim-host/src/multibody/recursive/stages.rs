@@ -15,15 +15,7 @@ impl Simulation {
     pub fn step_in_stages(&mut self, stages: &[f64]) -> Result<(), StepError> {
         self.saved.copy_from(&self.at);
         let h = self.at.progress.h;
-        match stages.iter().try_for_each(|share| self.advance(share * h)) {
-            Ok(()) => {
-                self.at.progress.advance();
-                Ok(())
-            }
-            Err(error) => {
-                self.restore_saved();
-                Err(error)
-            }
-        }
+        let made = stages.iter().try_for_each(|share| self.advance(share * h));
+        self.conclude(made)
     }
 }
