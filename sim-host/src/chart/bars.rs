@@ -1,9 +1,8 @@
 //! Bars beside their names.
 
-use super::style::{COLORS, ChartError, Painted, TITLE_HEIGHT, WIDTH};
+use super::style::{COLORS, ChartError, Painted, TITLE_HEIGHT, WIDTH, at, drawn, font};
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use std::path::Path;
 
 /// A bar: its name, its value, and the value as people read it.
 #[derive(Clone, Debug)]
@@ -39,24 +38,21 @@ impl Bars {
         Self { logarithmic: true, ..self }
     }
 
-    /// Draws panels, one below the other, to an SVG file.
+    /// Draws panels, one below the other, as SVG.
     ///
     /// # Errors
-    /// [`ChartError`] if the file cannot be written.
-    pub fn draw(panels: &[Self], path: &Path) -> Result<(), ChartError> {
+    /// [`ChartError`] if it cannot be drawn.
+    pub fn svg(panels: &[Self]) -> Result<String, ChartError> {
         let height: u32 = panels.iter().map(Self::height).sum();
-        let root = SVGBackend::new(path, (WIDTH, height)).into_drawing_area();
-        let paint = || -> Painted {
-            root.fill(&WHITE)?;
+        let title = panels.first().map_or("", |panel| &panel.title);
+        drawn(title, (WIDTH, height), |root| {
             let mut top = 0;
             for panel in panels {
-                panel.paint(&root, top)?;
+                panel.paint(root, top)?;
                 top += panel.height() as i32;
             }
-            root.present()?;
             Ok(())
-        };
-        paint().map_err(|error| ChartError::new(path.display(), error.as_ref()))
+        })
     }
 
     fn height(&self) -> u32 {
@@ -64,16 +60,17 @@ impl Bars {
     }
 
     fn paint(&self, area: &DrawingArea<SVGBackend<'_>, Shift>, top: i32) -> Painted {
-        area.draw(&Text::new(self.title.as_str(), (14, top + 12), ("sans-serif", 18)))?;
+        let pixels = |x: i32, y: i32| (at(x), at(y));
+        area.draw(&Text::new(self.title.as_str(), pixels(14, top + 12), font(18)))?;
         let room = f64::from(WIDTH as i32 - NAMES - LABELS);
         for (i, bar) in self.bars.iter().enumerate() {
             let y = top + TITLE_HEIGHT as i32 + ROW * i as i32;
-            area.draw(&Text::new(bar.name.as_str(), (14, y + 4), ("sans-serif", 14)))?;
+            area.draw(&Text::new(bar.name.as_str(), pixels(14, y + 4), font(14)))?;
             let end = NAMES + (room * self.share(bar)) as i32;
             let color = COLORS[2].filled();
-            area.draw(&Rectangle::new([(NAMES, y), (end, y + ROW - 6)], color))?;
-            let place = (end + 8, y + 4);
-            area.draw(&Text::new(bar.label.as_str(), place, ("sans-serif", 14)))?;
+            let corners = [pixels(NAMES, y), pixels(end, y + ROW - 6)];
+            area.draw(&Rectangle::new(corners, color))?;
+            area.draw(&Text::new(bar.label.as_str(), pixels(end + 8, y + 4), font(14)))?;
         }
         Ok(())
     }

@@ -13,6 +13,8 @@ pub struct MarkedCurve {
     pub name: String,
     /// Number of its colour and mark: the same for the same thing in all charts. Thirty differ.
     pub style: usize,
+    /// Whether it stands out: the others are paler, thinner, and behind.
+    pub stands_out: bool,
     /// Points, in order. Those that are not positive have no place on logarithmic axes and are left out.
     pub points: Vec<(f64, f64)>,
 }
@@ -35,6 +37,12 @@ const HEIGHT: u32 = 420;
 const MARK: i32 = 4;
 /// Names of methods are longer than those of joints.
 const NAMES_WIDTH: u32 = LEGEND_WIDTH + 60;
+
+/// Nearer to white, and still told from the others.
+fn pale(RGBColor(red, green, blue): RGBColor) -> RGBColor {
+    let mixed = |part: u8| 255 - (255 - part) / 5 * 2;
+    RGBColor(mixed(red), mixed(green), mixed(blue))
+}
 
 impl LogLogChart {
     /// Draws it as SVG.
@@ -73,14 +81,21 @@ impl LogLogChart {
             .axis_style(BLACK.stroke_width(points(1)))
             .max_light_lines(0)
             .draw()?;
-        for (place, curve) in self.curves.iter().enumerate() {
-            let color = COLORS[curve.style % COLORS.len()];
-            let style = color.stroke_width(points(2));
+        // In the legend those that stand out come first; on the plot they are drawn last.
+        let mut ordered: Vec<&MarkedCurve> = self.curves.iter().collect();
+        ordered.sort_by_key(|curve| !curve.stands_out);
+        for (place, curve) in ordered.into_iter().enumerate().rev() {
+            let own = COLORS[curve.style % COLORS.len()];
+            let (color, width, size) =
+                if curve.stands_out { (own, 3, MARK + 1) } else { (pale(own), 1, MARK - 1) };
+            let style = color.stroke_width(points(width));
             chart.draw_series(LineSeries::new(curve.shown(), style))?;
             let y = 30 + 20 * place as i32;
             let line = vec![(at(2), at(y)), (at(32), at(y))];
             legend.draw(&PathElement::new(line, style))?;
-            legend.draw(&Text::new(curve.name.as_str(), (at(38), at(y - 7)), font(13)))?;
+            let ink = if curve.stands_out { BLACK } else { RGBColor(90, 90, 90) };
+            let text = font(13).into_text_style(root).color(&ink);
+            legend.draw(&Text::new(curve.name.as_str(), (at(38), at(y - 7)), text))?;
             let ends = [(at(17), at(y))];
             // A macro, as each mark is a type of its own.
             macro_rules! mark {
@@ -91,7 +106,7 @@ impl LogLogChart {
                     }
                 }};
             }
-            let (m, thick) = (at(MARK), color.stroke_width(points(2)));
+            let (m, thick) = (at(size), color.stroke_width(points(2)));
             match curve.style % 5 {
                 0 => mark!(Circle::new((0, 0), m, color.filled())),
                 1 => mark!(Rectangle::new([(-m, -m), (m, m)], color.filled())),

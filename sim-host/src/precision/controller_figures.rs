@@ -48,7 +48,7 @@ pub fn controller_figures(
             y_axis: y.to_owned(),
             curves,
         };
-        Ok(PrecisionFigure { name, svg: chart.svg()?, sentence })
+        Ok(PrecisionFigure { name, svg: chart.svg()?, says: sentence, note: String::new() })
     };
     let error = "largest error of a torque, relative";
     Ok(vec![
@@ -85,7 +85,7 @@ pub fn controller_figures(
 }
 
 fn curve(name: String, style: usize, points: impl Iterator<Item = (f64, f64)>) -> MarkedCurve {
-    MarkedCurve { name, style, points: points.collect() }
+    MarkedCurve { name, style, stands_out: true, points: points.collect() }
 }
 
 fn factor_sentence(precision: &ControllerPrecision) -> String {

@@ -14,8 +14,10 @@ pub struct PrecisionFigure {
     pub name: &'static str,
     /// The drawing.
     pub svg: String,
-    /// What it shows.
-    pub sentence: String,
+    /// What it shows, in a sentence.
+    pub says: String,
+    /// All of it in numbers.
+    pub note: String,
 }
 
 type Quantity = fn(&Measurement) -> Option<f64>;
@@ -77,10 +79,12 @@ const AXES: [Axes; 8] = [
 /// [`ChartError`] if one cannot be drawn.
 pub fn figures(survey: &Survey) -> Result<Vec<PrecisionFigure>, ChartError> {
     let mut all = Vec::new();
+    let stand_out = sentences::stand_out(survey);
     for axes in &AXES {
         let curve = |curve: &super::Curve| MarkedCurve {
             name: curve.method.clone(),
             style: style(&curve.method),
+            stands_out: stand_out.contains(&curve.method),
             points: curve
                 .measurements
                 .iter()
@@ -100,20 +104,27 @@ pub fn figures(survey: &Survey) -> Result<Vec<PrecisionFigure>, ChartError> {
             y_axis: axes.y.0.to_owned(),
             curves,
         };
-        let sentence = sentence(survey, axes);
-        all.push(PrecisionFigure { name: axes.name, svg: chart.svg()?, sentence });
+        let (says, note) = words(survey, axes);
+        all.push(PrecisionFigure { name: axes.name, svg: chart.svg()?, says, note });
     }
     Ok(all)
 }
 
-fn sentence(survey: &Survey, axes: &Axes) -> String {
+/// What a chart shows in a sentence, and in numbers.
+fn words(survey: &Survey, axes: &Axes) -> (String, String) {
     match axes.name {
-        "time" => sentences::quickest(survey),
-        "step" => sentences::slopes(survey),
-        "evaluations" => "The same without the machine: residuals of implicit methods, differential equations of \
-             others; an evaluation's cost differs from method to method."
-            .to_owned(),
-        _ => sentences::ranges(survey, "Over all steps that work", axes.y.1),
+        "time" => (sentences::frontier(survey), sentences::quickest(survey)),
+        "step" => (sentences::orders(survey), sentences::slopes(survey)),
+        "evaluations" => (
+            "The same without the machine.".to_owned(),
+            "Residuals of implicit methods, differential equations of others; an evaluation's cost differs from \
+             method to method."
+                .to_owned(),
+        ),
+        _ => (
+            sentences::extremes(survey, axes.y.1),
+            sentences::ranges(survey, "Over all steps that work", axes.y.1),
+        ),
     }
 }
 

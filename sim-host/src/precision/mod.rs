@@ -11,6 +11,7 @@
 
 mod advice;
 mod catalogue;
+mod chapter;
 mod closed_loop;
 mod contender;
 mod controller;
@@ -19,7 +20,6 @@ mod course;
 mod figures;
 mod measure;
 mod mechanism_contenders;
-mod page;
 mod problem;
 mod recommend;
 mod reference;
@@ -35,6 +35,7 @@ mod tree_model;
 
 pub use advice::{Advice, AdviceError, advise};
 pub use catalogue::{CatalogueError, PROBLEMS, problem};
+pub use chapter::{PrecisionChapterFailure, chapter as precision_chapter, file_of};
 pub use contender::{Contender, Runs, Start};
 pub use controller::{
     ControllerPrecision, FASTEST_HZ, TorqueError, TrackingError, controller_precision,
@@ -43,7 +44,6 @@ pub use controller_figures::controller_figures;
 pub use course::{Conserved, Course, Trouble};
 pub use figures::{PrecisionFigure, figures};
 pub use measure::{Failed, Level, Measurement, Played, Span, Timing, distance};
-pub use page::{PrecisionPageFailure, page as precision_page};
 pub use problem::{ClosedForm, Omission, Problem, SAMPLES};
 pub use recommend::{Choice, ERROR_MARGIN, STEP_MARGIN, longest, ranked};
 pub use reference::{NoReference, Reference, reference};

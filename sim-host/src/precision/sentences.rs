@@ -5,8 +5,105 @@ use super::survey::Survey;
 use super::sweep::Curve;
 use std::fmt::Write;
 
+/// The simulator's own method.
+const OWN: &str = "variational";
+/// How near a fitted slope is to the order that it shows.
+const CLEAN: f64 = 0.3;
+
 /// Accuracies that are spoken of.
 pub const ACCURACIES: [f64; 4] = [1e-2, 1e-4, 1e-6, 1e-8];
+
+/// Methods that stand out in a survey's charts: those that are quickest for some accuracy, and the simulator's own.
+pub fn stand_out(survey: &Survey) -> Vec<String> {
+    let mut all: Vec<String> = first_for_each(survey).into_iter().map(|(_, name)| name).collect();
+    all.extend(survey.curves.iter().map(|c| c.method.clone()).filter(|name| name == OWN));
+    all
+}
+
+/// The quickest method for each accuracy that some method reaches.
+fn first_for_each(survey: &Survey) -> Vec<(f64, String)> {
+    let first = |accuracy: &f64| {
+        let all = ranked(&survey.curves, *accuracy);
+        Some((*accuracy, all.into_iter().next()?.method))
+    };
+    ACCURACIES.iter().filter_map(first).collect()
+}
+
+/// Who is quickest up to which accuracy.
+pub fn frontier(survey: &Survey) -> String {
+    let first = first_for_each(survey);
+    let spans = first.chunk_by(|a, b| a.1 == b.1).map(|span| match span {
+        [(accuracy, name)] => format!("{name} to {accuracy:.0e}"),
+        [(from, name), .., (to, _)] => format!("{name} from {from:.0e} to {to:.0e}"),
+        [] => String::new(),
+    });
+    let spans: Vec<String> = spans.collect();
+    if spans.is_empty() {
+        "No method tried is fine enough for any accuracy asked for.".to_owned()
+    } else {
+        format!("Quickest: {}.", spans.join(", "))
+    }
+}
+
+/// Who is quickest over all problems, accuracy by accuracy.
+pub fn over_all(surveys: &[Survey]) -> String {
+    let spans = ACCURACIES[..3].iter().filter_map(|accuracy| {
+        let mut first: Vec<String> = surveys
+            .iter()
+            .filter_map(|survey| Some(ranked(&survey.curves, *accuracy).into_iter().next()?.method))
+            .collect();
+        first.sort();
+        let mut counted: Vec<(usize, &str)> =
+            first.chunk_by(|a, b| a == b).map(|same| (same.len(), same[0].as_str())).collect();
+        counted.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
+        let named: Vec<String> =
+            counted.iter().map(|(count, name)| format!("{name} {count}")).collect();
+        (!named.is_empty()).then(|| format!("to {accuracy:.0e} {}", named.join(", ")))
+    });
+    let spans: Vec<String> = spans.collect();
+    format!("quickest, in how many of {} scenes: {}.", surveys.len(), spans.join("; "))
+}
+
+/// How many methods show the order that they are known for.
+pub fn orders(survey: &Survey) -> String {
+    let known = || survey.curves.iter().filter_map(|curve| Some((curve, f64::from(curve.order?))));
+    let holds = |(curve, order): &(&Curve, f64)| {
+        curve.fit.is_some_and(|fit| (fit.order - order).abs() <= CLEAN)
+    };
+    let others: Vec<&str> =
+        known().filter(|one| !holds(one)).map(|(curve, _)| curve.method.as_str()).collect();
+    let others = match others.as_slice() {
+        [] => String::new(),
+        others => format!("; not so {}", others.join(", ")),
+    };
+    format!(
+        "{} of {} methods show their known order within {CLEAN}{others}.",
+        known().filter(holds).count(),
+        known().count()
+    )
+}
+
+/// Which methods keep a quantity lowest, and which let it go furthest.
+pub fn extremes(survey: &Survey, of: impl Fn(&super::Measurement) -> Option<f64>) -> String {
+    let most = |curve: &Curve| {
+        let values = curve.measurements.iter().filter_map(&of).map(f64::abs);
+        Some((values.reduce(f64::max)?, curve.method.clone()))
+    };
+    let all: Vec<(f64, String)> = survey.curves.iter().filter_map(most).collect();
+    let low = all.iter().min_by(|a, b| a.0.total_cmp(&b.0));
+    let high = all.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    match low.zip(high) {
+        Some((low, high)) if low.1 == high.1 => format!("{}: at most {}.", low.1, plain(low.0)),
+        Some((low, high)) => format!(
+            "Lowest: {}, at most {}; highest: {}, up to {}.",
+            low.1,
+            plain(low.0),
+            high.1,
+            plain(high.0)
+        ),
+        None => String::new(),
+    }
+}
 
 /// Who is quickest for each accuracy, and by how much.
 pub fn quickest(survey: &Survey) -> String {
@@ -35,12 +132,11 @@ pub fn quickest(survey: &Survey) -> String {
 
 /// Where the simulator's own method loses, and by how much.
 pub fn losses(survey: &Survey) -> String {
-    let own = "variational";
     let mut text = String::new();
     for accuracy in ACCURACIES {
         let all = ranked(&survey.curves, accuracy);
-        let Some(first) = all.first().filter(|first| first.method != own) else { continue };
-        let _ = match all.iter().find(|choice| choice.method == own) {
+        let Some(first) = all.first().filter(|first| first.method != OWN) else { continue };
+        let _ = match all.iter().find(|choice| choice.method == OWN) {
             Some(ours) => write!(
                 text,
                 "At {accuracy:.0e} the plain variational method takes {:.1} times the time of {}. ",
@@ -79,7 +175,7 @@ pub fn ranges(
         let values: Vec<f64> = curve.measurements.iter().filter_map(&of).map(f64::abs).collect();
         let low = values.iter().copied().reduce(f64::min)?;
         let high = values.iter().copied().reduce(f64::max)?;
-        Some(format!("{} {low:.1e} to {high:.1e}", curve.method))
+        Some(format!("{} {} to {}", curve.method, plain(low), plain(high)))
     });
     let each: Vec<String> = each.collect();
     if each.is_empty() { String::new() } else { format!("{what}: {}.", each.join("; ")) }
@@ -123,6 +219,11 @@ pub fn cost(choice: &Choice) -> String {
         Some(time) => format!("{:.3} ms a simulated second", 1e3 * time),
         None => format!("{:.0} evaluations a simulated second", choice.evaluations),
     }
+}
+
+/// Two digits, as a power of ten only where that is shorter.
+fn plain(value: f64) -> String {
+    if (0.1..1000.0).contains(&value) { format!("{value:.1}") } else { format!("{value:.1e}") }
 }
 
 fn ratio(slow: &Choice, quick: &Choice) -> f64 {

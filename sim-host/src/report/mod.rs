@@ -1,9 +1,13 @@
-//! The report of a robot's run: one page that needs nothing else, with a replay.
+//! Pages that need nothing but themselves: the report of a robot's run, with a replay, and the charts.
 
+mod charts_page;
 mod page;
+mod plain_chapter;
 mod replay_data;
-mod stability_page;
+mod stability_chapter;
 mod tables;
 
+pub use charts_page::{Chapter, Figure, charts_page};
 pub use page::{PageFailure, Report, page};
-pub use stability_page::{MapFigure, StepRow, StepTable, stability_page};
+pub use plain_chapter::{Table, plain_chapter};
+pub use stability_chapter::{StepRow, StepTable, stability_chapter};

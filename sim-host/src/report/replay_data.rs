@@ -26,7 +26,7 @@ pub(super) struct ReplayData {
     torque_length: f64,
     /// s
     pub(super) times: Vec<f64>,
-    /// Seven numbers a body and frame: 0.1 mm, and quaternion parts of 1e-4.
+    /// Seven numbers a body and frame: 0.1 mm, and quaternion chapters of 1e-4.
     poses: Vec<i32>,
     block_poses: Vec<i32>,
     /// N

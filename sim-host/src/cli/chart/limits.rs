@@ -1,52 +1,61 @@
 //! `surefoot chart stability --scene`: the limits of a control loop.
 
-use super::super::{bad_input, say};
-use super::{Options, limits_table as table};
+use super::{Made, Options, limits_table as table};
+use crate::report::plain_chapter;
 use crate::scene::{AnyScene, Scene, open};
 use crate::stability::loop_limits::{Cell, Criterion, Quantity, Store, Survey};
 use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::time::Duration;
 
-/// Finds the limits of a scene, and writes them.
-pub(super) fn find_limits(name: &str, options: &Options) -> ExitCode {
-    let scene = match open(name) {
-        Ok(AnyScene::Robot(scene)) => *scene,
+/// Scenes whose limits are on the page of all charts.
+pub(super) const SCENES: [&str; 2] = ["experiment-1", "experiment-2"];
+
+/// Finds the limits of scenes, and writes them.
+pub(super) fn chart(names: &[&str], options: &Options) -> Result<Made, String> {
+    let (mut text, mut documents, mut files, mut tables) =
+        (String::new(), Vec::new(), Vec::new(), Vec::new());
+    for name in names {
+        let scene = robot(name)?;
+        let quantities = match options.only.as_slice() {
+            [] => &Quantity::ALL,
+            only => only,
+        };
+        let survey = Survey { scene: &scene, quantities, criterion: Criterion::default() };
+        let cells = find(&survey, options)?;
+        let written = write_files(&options.out, &survey, &cells)?;
+        text += &table::text(&survey, &cells);
+        documents.push(table::json(&survey, &cells));
+        let names = written.iter().filter_map(|f| Some(f.file_name()?.to_string_lossy().into()));
+        tables.push(table::for_page(&survey, &cells, names.collect()));
+        files.extend(written);
+    }
+    let json = match documents.len() {
+        1 => documents.remove(0),
+        _ => json!({ "chart": "loop-limits", "scenes": documents }),
+    };
+    let headline = format!("of {}: see the table.", names.join(", "));
+    let about = "How far one quantity of a scene can go, all others as they are, before the robot no longer stands.";
+    let chapter =
+        plain_chapter("limits", ("Limits of the control loop", headline), about, &[], &tables)
+            .map_err(|error| error.to_string())?;
+    Ok(Made { text, json, files, chapter })
+}
+
+fn robot(name: &str) -> Result<Scene, String> {
+    match open(name) {
+        Ok(AnyScene::Robot(scene)) => Ok(*scene),
         Ok(AnyScene::Mechanism(scene)) => {
-            let message = format!("{} is a mechanism that nobody controls", scene.name);
-            return bad_input(&message, options.json);
+            Err(format!("{} is a mechanism that nobody controls", scene.name))
         }
-        Err(error) => return bad_input(&error.to_string(), options.json),
-    };
-    let quantities = match options.only.as_slice() {
-        [] => &Quantity::ALL,
-        only => only,
-    };
-    let survey = Survey { scene: &scene, quantities, criterion: Criterion::default() };
-    match find(&survey, options).and_then(|cells| {
-        let files = write_files(&options.out, &survey, &cells)?;
-        Ok((cells, files))
-    }) {
-        Ok((cells, files)) => {
-            if options.json {
-                say(&format!("{:#}\n", table::json(&survey, &cells)));
-            } else {
-                say(&table::text(&survey, &cells));
-                for file in files {
-                    say(&format!("written: {}\n", file.display()));
-                }
-            }
-            ExitCode::SUCCESS
-        }
-        Err(message) => bad_input(&message, options.json),
+        Err(error) => Err(error.to_string()),
     }
 }
 
 /// Takes up what an earlier call has left, and finds the rest, with a bar over the cells.
 fn find(survey: &Survey, options: &Options) -> Result<Vec<Cell>, String> {
     let folder = &options.out;
-    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let program = std::env::current_exe()
         .and_then(std::fs::read)
         .map_err(|error| format!("this program cannot read itself: {error}"))?;

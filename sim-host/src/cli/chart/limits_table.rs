@@ -1,5 +1,6 @@
 //! Limits of a control loop as text, CSV and JSON.
 
+use crate::report::Table;
 use crate::stability::loop_limits::{
     ACCELEROMETER_NOISE, Cell, Footing, Found, GYROSCOPE_NOISE, HALVINGS, Manner, Quantity,
     RUNAWAY, Survey, Tolerance,
@@ -89,6 +90,42 @@ pub(super) fn text(survey: &Survey, cells: &[Cell]) -> String {
     out.push_str(&notes);
     out.push_str(&references(survey, cells));
     out
+}
+
+/// The same for a page: of each footing the limit and how it fails beyond.
+pub(super) fn for_page(survey: &Survey, cells: &[Cell], files: Vec<String>) -> Table {
+    let footings = Footing::of(survey.scene);
+    let mut head = vec![String::new(), "scene".to_owned()];
+    for footing in footings {
+        head.extend([footing.words(), "fails by".to_owned()]);
+    }
+    let row = |quantity: &Quantity| {
+        let limits: Vec<_> = cells
+            .iter()
+            .filter(|cell| cell.quantity == *quantity)
+            .filter_map(|cell| Some((cell, cell.limit()?)))
+            .collect();
+        let own = quantity.of(survey.scene).map_or("–".into(), |x| shown(*quantity, x));
+        let mut row = vec![quantity.words().to_owned(), own];
+        for (cell, limit) in &limits {
+            let mark = if cell.agrees() { "" } else { "~" };
+            row.push(format!("{mark}{}", found(*quantity, &limit.found)));
+            row.push(limit.found.manner().map_or("–", Manner::words).to_owned());
+        }
+        (!limits.is_empty()).then_some(row)
+    };
+    Table {
+        title: survey.scene.name.clone(),
+        head,
+        rows: survey.quantities.iter().filter_map(row).collect(),
+        note: format!(
+            "A value works if {}. ~: halving the step moves the limit by more than the tolerance. !: the end of \
+             the range that was searched. {}",
+            survey.criterion.words().replace('\n', " "),
+            references(survey, cells).replace('\n', " ")
+        ),
+        files,
+    }
 }
 
 /// What multiples and shares are of.

@@ -9,9 +9,13 @@ mod precision;
 mod stability;
 mod steps;
 
+use super::{bad_input, say};
+use crate::precision::machine;
+use crate::report::{Chapter, charts_page};
 use crate::stability::loop_limits::Quantity;
 use clap::Parser;
-use std::path::PathBuf;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Options of `chart`.
@@ -39,7 +43,7 @@ pub struct Options {
     /// Of `work-precision`: only this problem; may be given more than once
     #[arg(long)]
     problem: Vec<String>,
-    /// Where the tables go
+    /// Where the page, the drawings and the tables go
     #[arg(long, default_value = "out/chart")]
     out: PathBuf,
     /// One JSON document instead of a table
@@ -70,19 +74,72 @@ enum Part {
     Maps,
 }
 
-/// Charts.
+/// What a chart has found.
+struct Made {
+    /// For people.
+    text: String,
+    /// For programs.
+    json: Value,
+    /// What has been written.
+    files: Vec<PathBuf>,
+    /// For the page.
+    chapter: Chapter,
+}
+
+/// Charts, and puts what was charted on a page.
 pub fn chart(options: &Options) -> ExitCode {
-    match (options.what, &options.scene) {
-        (What::Stability, None) => stability::chart_stability(options),
-        (What::Stability, Some(scene)) => limits::find_limits(scene, options),
-        (What::Parsimony, _) => parsimony::chart_parsimony(options),
-        (What::WorkPrecision, _) => precision::work_precision(options),
-        (What::All, _) => {
-            let charts =
-                [stability::chart_stability, precision::work_precision, parsimony::chart_parsimony];
-            let failed =
-                charts.map(|chart| chart(options)).into_iter().find(|c| *c != ExitCode::SUCCESS);
-            failed.unwrap_or(ExitCode::SUCCESS)
+    match make(options) {
+        Ok((made, page)) => {
+            if options.json {
+                say(&format!("{:#}\n", document(made, &page)));
+            } else {
+                for one in &made {
+                    say(&one.text);
+                }
+                // The page links to the others.
+                say(&format!("\nwritten: {}\n", page.display()));
+            }
+            ExitCode::SUCCESS
         }
+        Err(message) => bad_input(&message, options.json),
+    }
+}
+
+fn make(options: &Options) -> Result<(Vec<Made>, PathBuf), String> {
+    let folder = &options.out;
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let (name, made) = match (options.what, &options.scene) {
+        (What::Stability, None) => ("stability", vec![stability::chart(options)?]),
+        (What::Stability, Some(scene)) => {
+            ("limits", vec![limits::chart(&[scene.as_str()], options)?])
+        }
+        (What::Parsimony, _) => ("parsimony", vec![parsimony::chart(options)?]),
+        (What::WorkPrecision, _) => ("work-precision", vec![precision::chart(options)?]),
+        (What::All, _) => {
+            let mut all = vec![precision::chart(options)?, stability::chart(options)?];
+            all.push(limits::chart(&limits::SCENES, options)?);
+            all.push(parsimony::chart(options)?);
+            ("index", all)
+        }
+    };
+    let chapters: Vec<Chapter> = made.iter().map(|one| one.chapter.clone()).collect();
+    let page = charts_page(&chapters, &machine()).map_err(|error| error.to_string())?;
+    let path = folder.join(name).with_extension("html");
+    std::fs::write(&path, page).map_err(|error| format!("{}: {error}", path.display()))?;
+    Ok((made, path))
+}
+
+/// One document: a chart's own, or all of them.
+fn document(made: Vec<Made>, page: &Path) -> Value {
+    let documents = made.into_iter().map(|one| {
+        let mut document = one.json;
+        document["files"] = json!(one.files);
+        document["page"] = json!(page);
+        document
+    });
+    let mut documents: Vec<Value> = documents.collect();
+    match documents.len() {
+        1 => documents.remove(0),
+        _ => json!({ "charts": documents, "page": page }),
     }
 }

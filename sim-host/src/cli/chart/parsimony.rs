@@ -1,41 +1,67 @@
 //! `surefoot chart parsimony`: what models of different size cost for one motion, and how far they are off.
 
-use super::super::{bad_input, say};
-use super::Options;
+use super::{Made, Options};
 use crate::chart::{Bar, Bars};
 use crate::parsimony::{Ladder, Row, Rung, climb};
+use crate::report::{Chapter, Figure, plain_chapter};
 use crate::scene::load;
 use clap::ValueEnum;
 use indicatif::ProgressBar;
+use serde_json::json;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 /// Climbs the ladder of a scene: Experiment 1's, unless one is named.
-pub(super) fn chart_parsimony(options: &Options) -> ExitCode {
+pub(super) fn chart(options: &Options) -> Result<Made, String> {
     let name = options.scene.as_deref().unwrap_or("experiment-1");
-    let scene = match load(name) {
-        Ok(scene) => scene,
-        Err(error) => return bad_input(&error.to_string(), options.json),
-    };
+    let scene = load(name).map_err(|error| error.to_string())?;
     let bar = ProgressBar::new(Rung::of(&scene).len() as u64);
     let ladder = climb(name, &scene, &|done| bar.set_position(done as u64));
     bar.finish_and_clear();
-    let files = match write_files(&options.out, &ladder) {
-        Ok(files) => files,
-        Err(message) => return bad_input(&message, options.json),
-    };
-    if options.json {
-        let document =
-            serde_json::json!({ "chart": "parsimony", "ladder": ladder, "files": files });
-        say(&format!("{document:#}\n"));
-    } else {
-        say(&text(&ladder));
-        for file in files {
-            say(&format!("written: {}\n", file.display()));
-        }
-    }
-    ExitCode::SUCCESS
+    let drawing = Bars::svg(&panels(&ladder)).map_err(|error| error.to_string())?;
+    let files = write_files(&options.out, &ladder, &drawing)?;
+    Ok(Made {
+        text: text(&ladder),
+        json: json!({ "chart": "parsimony", "ladder": ladder }),
+        chapter: chapter(&ladder, &drawing, &files)?,
+        files,
+    })
+}
+
+fn chapter(ladder: &Ladder, drawing: &str, files: &[PathBuf]) -> Result<Chapter, String> {
+    let names = files.iter().filter_map(|file| Some(file.file_name()?.to_string_lossy().into()));
+    let figure = Figure::new(
+        drawing,
+        headline(ladder),
+        "Afloat: limbs in motion without gravity. Deviations are of the central body, at most, from the largest \
+         model of the same motion.",
+    );
+    let (title, about) = (
+        "No more model than a scene needs",
+        "One motion with models of different size: what a step of each costs, and how far it is off.",
+    );
+    let figures = [figure.with_files(names)];
+    plain_chapter("parsimony", (title, headline(ladder)), about, &figures, &[])
+        .map_err(|error| error.to_string())
+}
+
+/// What the ladder comes to.
+fn headline(ladder: &Ladder) -> String {
+    let cost = |rung| ladder.rows.iter().find(|row: &&Row| row.rung == rung)?.instructions;
+    let saves = cost(Rung::FloorFull).zip(cost(Rung::FloorLumped)).map(|(full, lumped)| {
+        format!(
+            " On the floor the lumped model takes {lumped} instructions a step, the full one {full}: {:.2} times \
+             as many.",
+            full as f64 / lumped as f64
+        )
+    });
+    format!(
+        "{} runs on the {} model: {}.{}",
+        ladder.scene,
+        ladder.chosen.model,
+        ladder.chosen.reason,
+        saves.unwrap_or_default()
+    )
 }
 
 fn word(rung: Rung) -> String {
@@ -85,12 +111,11 @@ fn text(ladder: &Ladder) -> String {
     out
 }
 
-fn write_files(folder: &Path, ladder: &Ladder) -> Result<Vec<PathBuf>, String> {
+fn write_files(folder: &Path, ladder: &Ladder, drawing: &str) -> Result<Vec<PathBuf>, String> {
     let named = |ending: &str| folder.join(format!("parsimony-{}.{ending}", ladder.scene));
     let (csv, json, svg) = (named("csv"), named("json"), named("svg"));
     let context =
         |path: &Path, error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-    std::fs::create_dir_all(folder).map_err(|error| context(folder, &error))?;
     let mut writer = csv::Writer::from_path(&csv).map_err(|error| context(&csv, &error))?;
     for row in &ladder.rows {
         writer.serialize(row).map_err(|error| context(&csv, &error))?;
@@ -98,7 +123,7 @@ fn write_files(folder: &Path, ladder: &Ladder) -> Result<Vec<PathBuf>, String> {
     writer.flush().map_err(|error| context(&csv, &error))?;
     let document = serde_json::to_string_pretty(ladder).map_err(|error| context(&json, &error))?;
     std::fs::write(&json, document + "\n").map_err(|error| context(&json, &error))?;
-    Bars::draw(&panels(ladder), &svg).map_err(|error| error.to_string())?;
+    std::fs::write(&svg, drawing).map_err(|error| context(&svg, &error))?;
     Ok(vec![csv, json, svg])
 }
 

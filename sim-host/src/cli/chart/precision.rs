@@ -1,47 +1,33 @@
 //! `surefoot chart work-precision`
 
-use super::super::{bad_input, say};
-use super::Options;
+use super::{Made, Options};
 use crate::precision::{
     ControllerPrecision, Effort, PROBLEMS, Survey, controller_figures, controller_precision,
-    figures, machine, precision_page, survey, write_rows,
+    figures, file_of, machine, precision_chapter, survey, write_rows,
 };
 use indicatif::ProgressBar;
+use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::time::Duration;
 
 /// Charts all problems, or those that are asked for.
-pub(super) fn work_precision(options: &Options) -> ExitCode {
+pub(super) fn chart(options: &Options) -> Result<Made, String> {
     let names: Vec<&str> = match options.problem.as_slice() {
         [] => PROBLEMS.to_vec(),
         asked => asked.iter().map(String::as_str).collect(),
     };
-    let made = find(&names, options).and_then(|surveys| {
-        let controller = controller_precision().map_err(|error| error.to_string())?;
-        Ok((write_files(&options.out, &surveys, &controller)?, surveys, controller))
+    let surveys = find(&names, options)?;
+    let controller = controller_precision().map_err(|error| error.to_string())?;
+    let json = json!({
+        "chart": "work-precision", "machine": machine(), "surveys": surveys, "controller": controller,
     });
-    match made {
-        Ok((files, surveys, controller)) => {
-            if options.json {
-                let document = serde_json::json!({
-                    "chart": "work-precision", "machine": machine(), "surveys": surveys,
-                    "controller": controller, "files": files,
-                });
-                say(&format!("{document:#}\n"));
-            } else {
-                say(&text(&surveys));
-                say(&controller_text(&controller));
-                for file in files.iter().filter(|file| file.extension().is_some_and(|e| e != "svg"))
-                {
-                    say(&format!("written: {}\n", file.display()));
-                }
-            }
-            ExitCode::SUCCESS
-        }
-        Err(message) => bad_input(&message, options.json),
-    }
+    Ok(Made {
+        files: write_files(&options.out, &surveys, &controller, &json)?,
+        text: text(&surveys) + &controller_text(&controller),
+        json,
+        chapter: precision_chapter(&surveys, &controller).map_err(|error| error.to_string())?,
+    })
 }
 
 fn find(names: &[&str], options: &Options) -> Result<Vec<Survey>, String> {
@@ -69,6 +55,7 @@ fn write_files(
     folder: &Path,
     surveys: &[Survey],
     controller: &ControllerPrecision,
+    document: &Value,
 ) -> Result<Vec<PathBuf>, String> {
     let mut files = Vec::new();
     let mut put = |name: String, text: &str| -> Result<(), String> {
@@ -79,17 +66,12 @@ fn write_files(
     };
     for survey in surveys {
         for figure in figures(survey).map_err(|error| error.to_string())? {
-            put(format!("work-precision-{}-{}.svg", survey.problem, figure.name), &figure.svg)?;
+            put(file_of(&survey.problem, &figure), &figure.svg)?;
         }
     }
     for figure in controller_figures(controller).map_err(|error| error.to_string())? {
-        put(format!("work-precision-controller-{}.svg", figure.name), &figure.svg)?;
+        put(file_of("controller", &figure), &figure.svg)?;
     }
-    let page =
-        precision_page(surveys, controller, &machine()).map_err(|error| error.to_string())?;
-    put("work-precision.html".to_owned(), &page)?;
-    let document =
-        serde_json::json!({ "machine": machine(), "surveys": surveys, "controller": controller });
     put("work-precision.json".to_owned(), &format!("{document:#}\n"))?;
     let table = folder.join("work-precision.csv");
     write_rows(&table, surveys).map_err(|error| format!("{}: {error}", table.display()))?;

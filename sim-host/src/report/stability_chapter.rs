@@ -1,16 +1,7 @@
-//! One page with all maps and tables of `chart stability`, which needs nothing but itself.
+//! What `chart stability` tells: maps, and tables of longest steps.
 
+use super::{Chapter, Figure};
 use askama::Template;
-
-/// A map as it stands in the page.
-pub struct MapFigure {
-    /// SVG.
-    pub drawing: String,
-    /// What it says.
-    pub says: String,
-    /// What works.
-    pub note: String,
-}
 
 /// The longest steps of all methods on a problem.
 pub struct StepTable {
@@ -38,25 +29,30 @@ pub struct StepRow {
     pub ratio: String,
 }
 
-/// Texts are escaped by the template, but for the style, which comes with the program, and drawings, whose
-/// backend escapes.
+/// Texts are escaped by the template, but for drawings, whose backend escapes.
 #[derive(Template)]
-#[template(path = "stability.html")]
-struct Page<'a> {
-    style: &'static str,
-    maps: &'a [MapFigure],
+#[template(path = "stability_chapter.html")]
+struct Body<'a> {
+    maps: &'a [Figure],
     tables: &'a [StepTable],
     counts: &'a str,
 }
 
-/// Draws the page. `counts` says how many forecasts hold.
+/// Puts it together. `counts` says how many forecasts of steps hold, `headline` of all.
 ///
 /// # Errors
 /// [`askama::Error`] if it cannot be written.
-pub fn stability_page(
-    maps: &[MapFigure],
+pub fn stability_chapter(
+    maps: &[Figure],
     tables: &[StepTable],
     counts: &str,
-) -> Result<String, askama::Error> {
-    Page { style: include_str!("page.css"), maps, tables, counts }.render()
+    headline: String,
+) -> Result<Chapter, askama::Error> {
+    let body = Body { maps, tables, counts }.render()?;
+    Ok(Chapter {
+        id: "stability",
+        title: "Where methods and loops fail".to_owned(),
+        headline,
+        body,
+    })
 }

@@ -1,4 +1,4 @@
-//! One page of all surveys that needs no network.
+//! What the surveys tell.
 
 use super::controller::ControllerPrecision;
 use super::controller_figures::controller_figures;
@@ -7,29 +7,28 @@ use super::recommend::{ERROR_MARGIN, STEP_MARGIN, ranked};
 use super::sentences::{self, ACCURACIES};
 use super::survey::Survey;
 use crate::chart::ChartError;
+use crate::report::{Chapter, Figure};
 use askama::Template;
 
-/// Why there is no page.
+/// Why there is nothing for a page.
 #[derive(Debug, thiserror::Error)]
-pub enum PrecisionPageFailure {
+pub enum PrecisionChapterFailure {
     /// A chart.
     #[error(transparent)]
     Chart(#[from] ChartError),
-    /// The page itself.
+    /// The text.
     #[error("the page cannot be written: {0}")]
     Template(#[from] askama::Error),
 }
 
-/// Texts are escaped by the template, but for the style and the drawings.
+/// Texts are escaped by the template, but for the drawings.
 #[derive(Template)]
-#[template(path = "work_precision.html")]
-struct Page<'a> {
-    machine: &'a str,
+#[template(path = "precision_chapter.html")]
+struct Body<'a> {
     error_margin: f64,
     step_margin: f64,
     sections: Vec<Section<'a>>,
-    controller: Vec<PrecisionFigure>,
-    style: &'static str,
+    controller: Vec<Figure>,
 }
 
 struct Section<'a> {
@@ -37,7 +36,9 @@ struct Section<'a> {
     recommended: Vec<Row>,
     losses: String,
     doubtful: String,
-    figures: Vec<PrecisionFigure>,
+    /// Error against time, which the others stand below.
+    first: Option<Figure>,
+    others: Vec<Figure>,
     failures: Vec<String>,
 }
 
@@ -51,34 +52,50 @@ struct Row {
     next: String,
 }
 
-/// Draws the page.
+/// Puts it together.
 ///
 /// # Errors
-/// A [`PrecisionPageFailure`].
-pub fn page(
+/// A [`PrecisionChapterFailure`].
+pub fn chapter(
     surveys: &[Survey],
     controller: &ControllerPrecision,
-    machine: &str,
-) -> Result<String, PrecisionPageFailure> {
+) -> Result<Chapter, PrecisionChapterFailure> {
     let section = |survey| -> Result<Section<'_>, ChartError> {
+        let mut shown = figures(survey)?.into_iter().map(|figure| in_page(&survey.problem, figure));
         Ok(Section {
             recommended: recommended(survey),
             losses: sentences::losses(survey),
             doubtful: sentences::doubtful(survey),
-            figures: figures(survey)?,
+            first: shown.next(),
+            others: shown.collect(),
             failures: survey.curves.iter().flat_map(sentences::failures).collect(),
             survey,
         })
     };
-    let page = Page {
-        machine,
+    let controller = controller_figures(controller)?;
+    let body = Body {
         error_margin: ERROR_MARGIN,
         step_margin: STEP_MARGIN,
-        controller: controller_figures(controller)?,
+        controller: controller.into_iter().map(|figure| in_page("controller", figure)).collect(),
         sections: surveys.iter().map(section).collect::<Result<_, _>>()?,
-        style: include_str!("../report/page.css"),
     };
-    Ok(page.render()?)
+    Ok(Chapter {
+        id: "work-precision",
+        title: "What accuracy costs".to_owned(),
+        headline: sentences::over_all(surveys),
+        body: body.render()?,
+    })
+}
+
+/// The name of a figure's file.
+pub fn file_of(problem: &str, figure: &PrecisionFigure) -> String {
+    format!("work-precision-{problem}-{}.svg", figure.name)
+}
+
+fn in_page(problem: &str, figure: PrecisionFigure) -> Figure {
+    let files =
+        [file_of(problem, &figure), "work-precision.csv".into(), "work-precision.json".into()];
+    Figure::new(&figure.svg, figure.says, figure.note).with_files(files)
 }
 
 fn recommended(survey: &Survey) -> Vec<Row> {

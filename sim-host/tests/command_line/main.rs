@@ -1,0 +1,9 @@
+//! The binary as its users meet it: exit statuses, one JSON document on stdout, messages that say
+//! what, where and what was expected.
+
+mod charts;
+mod mechanisms;
+mod program;
+mod reproduced;
+mod robots;
+mod wrong_input;

@@ -1,0 +1,101 @@
+//! Runs of mechanisms.
+
+use crate::program::{folder, said, surefoot};
+use serde_json::Value;
+
+/// Mechanisms run under any method that is made for them, and say what they keep.
+#[test]
+fn mechanisms_run_and_say_what_they_keep() {
+    let folder = folder("mechanisms");
+    for (arguments, unknowns, momenta) in [
+        (vec!["rigid-body", "--integrator", "lie-group"], 5, true),
+        (vec!["spherical-pendulum", "--integrator", "yoshida-4"], 4, true),
+        (vec!["n-pendulum", "--links", "4", "--duration", "2"], 16, false),
+        (vec!["chain", "--links", "20", "--duration", "1"], 20, false),
+        (vec!["biped-flight", "--duration", "0.5"], 18, true),
+    ] {
+        let all = [&["run"], &arguments[..], &["--json"]].concat();
+        let (status, stdout, stderr) = said(&surefoot(&folder, &all));
+        assert_eq!(status, Some(0), "{arguments:?}: {stderr}");
+        let document: Value = serde_json::from_str(&stdout).expect("one document");
+        assert_eq!(document["outcome"], "completed");
+        assert_eq!(document["unknowns_per_step"], unknowns);
+        assert!(document["newton"]["mean"].as_f64().is_some_and(|mean| mean > 1.0));
+        assert!(document["constraint_max"].as_f64().is_some_and(|g| g < 1e-10));
+        let drift = document["momentum"]["angular_drift"].as_f64();
+        // The n-pendulum begins at rest: nothing to relate a change to.
+        assert_eq!(drift.is_some(), momenta);
+        assert!(drift.is_none_or(|drift| drift < 1e-12), "{drift:?}");
+        let steps = document["steps"].as_u64().expect("a number");
+        let record =
+            std::fs::read_to_string(folder.join("out").join(arguments[0]).join("record.csv"));
+        let lines = record.expect("a record").lines().count() as u64;
+        assert!(lines > 500 && lines <= steps + 2, "{lines} lines of {steps} steps");
+    }
+}
+
+/// A step that is too long is a typed failure with a step that works; what does not go together is
+/// refused.
+#[test]
+fn a_mechanism_that_fails_says_why() {
+    let folder = folder("mechanism-failures");
+    let too_long = ["run", "rigid-body", "--step", "0.3", "--json"];
+    let (status, stdout, _) = said(&surefoot(&folder, &too_long));
+    assert_eq!(status, Some(1));
+    let document: Value = serde_json::from_str(&stdout).expect("one document");
+    assert_eq!(document["failure"]["kind"], "no-root");
+    assert!(document["failure"]["advice"].as_str().is_some_and(|a| a.contains("foretold")));
+    let cases: [(&[&str], &[&str]); 8] = [
+        (&["chain", "--integrator", "rattle"], &["integrator.name", "variational"]),
+        (&["chain", "--links", "0"], &["links", "0", "1 to"]),
+        (&["rigid-body", "--integrator", "rattle"], &["rattle", "natural systems"]),
+        (&["n-pendulum", "--integrator", "verlet"], &["verlet", "without constraints"]),
+        (&["n-pendulum", "--links", "9"], &["links", "9", "1 to 4"]),
+        (&["rigid-body", "--links", "2"], &["--links", "a scene with links"]),
+        (&["rigid-body", "--controller", "firmware"], &["no controller"]),
+        (&["experiment-1", "--integrator", "rattle"], &["integrator.name", "semi-implicit-euler"]),
+    ];
+    for (arguments, words) in cases {
+        let (status, stdout, stderr) = said(&surefoot(&folder, &[&["run"], arguments].concat()));
+        assert_eq!(status, Some(2), "{arguments:?}: {stderr}");
+        assert!(stdout.is_empty());
+        for word in words {
+            assert!(stderr.contains(word), "{arguments:?} says {stderr:?}, without {word:?}");
+        }
+    }
+}
+
+/// Values that a mechanism's file may get wrong.
+#[test]
+fn a_wrong_mechanism_is_refused_with_its_place() {
+    let folder = folder("mechanism-files");
+    let scenes = [
+        include_str!("../../scenes/rigid-body.toml"),
+        include_str!("../../scenes/n-pendulum.toml"),
+    ];
+    for (scene, line, by, words) in [
+        (
+            0,
+            "inertia_kg_m2 = [1.0, 2.0, 3.0]",
+            "inertia_kg_m2 = [1.0, 2.0, 3.1]",
+            ["inertia", "sum"],
+        ),
+        (0, "orientation = [1.0,", "orientation = [0.0,", ["mechanism.orientation", "norm"]),
+        (0, "[0.0, 3.0, 4.0]", "[0.0, nan, 4.0]", ["angular_velocity", "finite"]),
+        (0, "kind = \"rigid-body\"", "kind = \"jelly\"", ["jelly", "pendulum"]),
+        (1, "gravity_m_s2 = 9.81", "gravity_m_s2 = inf", ["gravity", "finite"]),
+        (1, "length_m = 0.5", "length_m = -0.5", ["links[0]", "above zero"]),
+        (1, "step_s = 2e-3", "step_s = 0.0", ["integrator.step_s", "above zero"]),
+        (1, "duration_s = 20.0", "duration_s = nan", ["duration_s", "above zero"]),
+    ] {
+        assert!(scenes[scene].contains(line), "{line}");
+        let path = folder.join("wrong.toml");
+        std::fs::write(&path, scenes[scene].replacen(line, by, 1)).expect("writable");
+        let path = path.to_str().expect("UTF-8");
+        let (status, _, stderr) = said(&surefoot(&folder, &["run", path]));
+        assert_eq!(status, Some(2), "{by}: {stderr}");
+        for word in words {
+            assert!(stderr.contains(word), "{by:?} says {stderr:?}, without {word:?}");
+        }
+    }
+}
