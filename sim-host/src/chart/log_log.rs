@@ -1,5 +1,6 @@
 //! Curves on logarithmic axes, each with a colour and a mark of its own.
 
+use super::axes::{Axis, axes, power, powers};
 use super::style::{
     COLORS, ChartError, LEGEND_WIDTH, Painted, TITLE_HEIGHT, WIDTH, at, drawn, font, points,
 };
@@ -57,30 +58,12 @@ impl LogLogChart {
         let area = root.titled(&self.title, font(18))?;
         let (plot, legend) = area.split_horizontally(points(WIDTH - NAMES_WIDTH));
         let (x, y) = (self.range(|point| point.0), self.range(|point| point.1));
-        let axes = ((x.0..x.1).log_scale(), (y.0..y.1).log_scale());
-        let mut chart = ChartBuilder::on(&plot)
-            .margin_left(at(10))
-            .margin_right(at(12))
-            .margin_bottom(at(6))
-            .margin_top(at(8))
-            .x_label_area_size(at(42))
-            .y_label_area_size(at(78))
-            .build_cartesian_2d(axes.0, axes.1)?;
-        chart
-            .configure_mesh()
-            .x_desc(&self.x_axis)
-            .y_desc(&self.y_axis)
-            .x_labels(8)
-            .y_labels(8)
-            .x_label_formatter(&|value| format!("{value:.0e}"))
-            .y_label_formatter(&|value| format!("{value:.0e}"))
-            .label_style(font(13))
-            .axis_desc_style(font(14))
-            .set_all_tick_mark_size(at(5))
-            .bold_line_style(RGBColor(220, 220, 220).stroke_width(points(1)))
-            .axis_style(BLACK.stroke_width(points(1)))
-            .max_light_lines(0)
-            .draw()?;
+        let axis = |description, (from, to): (f64, f64)| Axis {
+            range: (from..to).log_scale(),
+            description,
+            label: &power,
+        };
+        let mut chart = axes(&plot, axis(&self.x_axis, x), axis(&self.y_axis, y))?;
         // In the legend those that stand out come first; on the plot they are drawn last.
         let mut ordered: Vec<&MarkedCurve> = self.curves.iter().collect();
         ordered.sort_by_key(|curve| !curve.stands_out);
@@ -120,15 +103,8 @@ impl LogLogChart {
         Ok(())
     }
 
-    /// Whole powers of ten.
     fn range(&self, of: impl Fn((f64, f64)) -> f64 + Copy) -> (f64, f64) {
-        let values = self.curves.iter().flat_map(MarkedCurve::shown).map(of);
-        let (low, high) =
-            values.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));
-        if low > high {
-            return (0.1, 1.0);
-        }
-        (10_f64.powf(low.log10().floor() - 0.05), 10_f64.powf(high.log10().ceil() + 0.05))
+        powers(self.curves.iter().flat_map(MarkedCurve::shown).map(of))
     }
 }
 

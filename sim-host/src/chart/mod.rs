@@ -1,5 +1,6 @@
 //! Charts as SVG.
 
+mod axes;
 mod bars;
 mod heat_map;
 mod log_log;

@@ -1,11 +1,11 @@
 //! One quantity against another, on plain or logarithmic axes.
 
+use super::axes::{Axis, Plane, axes, power, powers};
 use super::style::{
-    COLORS, ChartError, LEGEND_WIDTH, PANEL_HEIGHT, Painted, TITLE_HEIGHT, WIDTH, at, drawn, font,
+    COLORS, ChartError, LEGEND_WIDTH, PANEL_HEIGHT, Painted, TITLE_HEIGHT, WIDTH, drawn, font,
     label, names, points, range, write,
 };
 use plotters::coord::Shift;
-use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 use std::path::Path;
 
@@ -102,55 +102,31 @@ impl XyChart {
             let area = area.titled(&chart.title, font(20))?;
             let (plot, legend) = area.split_horizontally(points(WIDTH - LEGEND_WIDTH));
             let (x, y) = (chart.range(|(x, _)| x), chart.range(|(_, y)| y));
+            let (x_axis, y_axis) = (chart.x_axis.as_str(), chart.y_axis.as_str());
             if chart.logarithmic {
-                let axes = ((x.0..x.1).log_scale(), (y.0..y.1).log_scale());
-                chart.axes(&plot, axes, &power, &power)?;
+                let axis = |description, (from, to): (f64, f64)| Axis {
+                    range: (from..to).log_scale(),
+                    description,
+                    label: &power,
+                };
+                chart.curves(axes(&plot, axis(x_axis, x), axis(y_axis, y))?)?;
             } else {
                 let x_label = |v: &f64| label(*v, x.1 - x.0);
                 let y_label = |v: &f64| label(*v, y.1 - y.0);
-                chart.axes(&plot, (x.0..x.1, y.0..y.1), &x_label, &y_label)?;
+                let across = Axis { range: x.0..x.1, description: x_axis, label: &x_label };
+                let up = Axis { range: y.0..y.1, description: y_axis, label: &y_label };
+                chart.curves(axes(&plot, across, up)?)?;
             }
             names(&legend, chart.series.iter().map(|series| (series.name.as_str(), series.rings)))?;
         }
         Ok(())
     }
 
-    fn axes<X, Y>(
-        &self,
-        area: &DrawingArea<SVGBackend<'_>, Shift>,
-        (x, y): (X, Y),
-        x_label: &dyn Fn(&f64) -> String,
-        y_label: &dyn Fn(&f64) -> String,
-    ) -> Painted
+    fn curves<X, Y>(&self, mut chart: Plane<'_, '_, X, Y>) -> Painted
     where
-        X: AsRangedCoord<Value = f64>,
-        Y: AsRangedCoord<Value = f64>,
-        X::CoordDescType: ValueFormatter<f64>,
-        Y::CoordDescType: ValueFormatter<f64>,
+        X: Ranged<ValueType = f64>,
+        Y: Ranged<ValueType = f64>,
     {
-        let mut chart = ChartBuilder::on(area)
-            .margin_left(at(10))
-            .margin_right(at(12))
-            .margin_bottom(at(6))
-            .margin_top(at(12))
-            .x_label_area_size(at(42))
-            .y_label_area_size(at(78))
-            .build_cartesian_2d(x, y)?;
-        chart
-            .configure_mesh()
-            .x_desc(&self.x_axis)
-            .y_desc(&self.y_axis)
-            .x_labels(8)
-            .y_labels(8)
-            .x_label_formatter(x_label)
-            .y_label_formatter(y_label)
-            .label_style(font(13))
-            .axis_desc_style(font(14))
-            .set_all_tick_mark_size(at(5))
-            .bold_line_style(RGBColor(220, 220, 220).stroke_width(points(1)))
-            .axis_style(BLACK.stroke_width(points(1)))
-            .max_light_lines(0)
-            .draw()?;
         for (i, series) in self.series.iter().enumerate() {
             let color = COLORS[i % COLORS.len()];
             let shown = self.shown(series);
@@ -184,18 +160,6 @@ impl XyChart {
     /// Range of one coordinate; whole powers of ten on logarithmic axes.
     fn range(&self, of: impl Fn((f64, f64)) -> f64 + Clone) -> (f64, f64) {
         let values = self.series.iter().flat_map(|series| self.shown(series)).map(of);
-        if !self.logarithmic {
-            return range(values);
-        }
-        let low = values.clone().fold(f64::INFINITY, f64::min);
-        let high = values.fold(0.0, f64::max);
-        if low > high {
-            return (0.1, 1.0);
-        }
-        (10_f64.powf(low.log10().floor() - 0.05), 10_f64.powf(high.log10().ceil() + 0.05))
+        if self.logarithmic { powers(values) } else { range(values) }
     }
-}
-
-fn power(value: &f64) -> String {
-    format!("{value:.0e}")
 }
