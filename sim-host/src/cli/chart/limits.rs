@@ -14,8 +14,8 @@ pub(super) const SCENES: [&str; 2] = ["experiment-1", "experiment-2"];
 
 /// Finds the limits of scenes, and writes them.
 pub(super) fn chart(names: &[&str], options: &Options) -> Result<Made, String> {
-    let (mut text, mut documents, mut files, mut tables) =
-        (String::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut text, mut documents) = (String::new(), Vec::new());
+    let (mut files, mut tables, mut lines) = (Vec::new(), Vec::new(), Vec::new());
     for name in names {
         let scene = robot(name)?;
         let quantities = match options.only.as_slice() {
@@ -26,6 +26,7 @@ pub(super) fn chart(names: &[&str], options: &Options) -> Result<Made, String> {
         let cells = find(&survey, options)?;
         let written = write_files(&options.out, &survey, &cells)?;
         text += &table::text(&survey, &cells);
+        lines.push(table::in_a_line(&survey, &cells));
         documents.push(table::json(&survey, &cells));
         let names = written.iter().filter_map(|f| Some(f.file_name()?.to_string_lossy().into()));
         tables.push(table::for_page(&survey, &cells, names.collect()));
@@ -35,7 +36,7 @@ pub(super) fn chart(names: &[&str], options: &Options) -> Result<Made, String> {
         1 => documents.remove(0),
         _ => json!({ "chart": "loop-limits", "scenes": documents }),
     };
-    let headline = format!("of {}: see the table.", names.join(", "));
+    let headline = lines.join("; ") + ".";
     let about = "How far one quantity of a scene can go, all others as they are, before the robot no longer stands.";
     let chapter =
         plain_chapter("limits", ("Limits of the control loop", headline), about, &[], &tables)

@@ -92,6 +92,16 @@ pub(super) fn text(survey: &Survey, cells: &[Cell]) -> String {
     out
 }
 
+/// The limits on a scene's own soles in a line.
+pub(super) fn in_a_line(survey: &Survey, cells: &[Cell]) -> String {
+    let own = Footing::of(survey.scene).first();
+    let limits = cells.iter().filter(|cell| Some(&cell.footing) == own).filter_map(|cell| {
+        let limit = found(cell.quantity, &cell.limit()?.found);
+        Some(format!("{} {limit}", cell.quantity.words()))
+    });
+    format!("{}: {}", survey.scene.name, limits.collect::<Vec<_>>().join(", "))
+}
+
 /// The same for a page: of each footing the limit and how it fails beyond.
 pub(super) fn for_page(survey: &Survey, cells: &[Cell], files: Vec<String>) -> Table {
     let footings = Footing::of(survey.scene);
