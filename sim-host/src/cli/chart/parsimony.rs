@@ -2,35 +2,42 @@
 
 use super::super::{bad_input, say};
 use super::Options;
-use crate::chart::{Bar, Bars};
-use crate::parsimony::{Ladder, Row, Rung, climb};
-use crate::scene::load;
-use clap::ValueEnum;
+use super::ladder_table::LadderTable;
+use crate::parsimony::{MechanismRung, Rung, climb, climb_mechanism};
+use crate::scene::{AnyScene, open};
 use indicatif::ProgressBar;
-use std::fmt::Write;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Climbs the ladder of a scene: Experiment 1's, unless one is named.
+/// What is climbed unless a scene is named: a robot, a tree in a plane with parts fixed to it, and a free body.
+const SCENES: [&str; 3] = ["experiment-1", "hinged-chain", "box-drop"];
+
+/// Climbs the ladders.
 pub(super) fn chart_parsimony(options: &Options) -> ExitCode {
-    let name = options.scene.as_deref().unwrap_or("experiment-1");
-    let scene = match load(name) {
-        Ok(scene) => scene,
-        Err(error) => return bad_input(&error.to_string(), options.json),
-    };
-    let bar = ProgressBar::new(Rung::of(&scene).len() as u64);
-    let ladder = climb(name, &scene, &|done| bar.set_position(done as u64));
-    bar.finish_and_clear();
-    let files = match write_files(&options.out, &ladder) {
-        Ok(files) => files,
-        Err(message) => return bad_input(&message, options.json),
-    };
+    let names = options.scene.as_deref().map_or(SCENES.to_vec(), |name| vec![name]);
+    let (mut ladders, mut files) = (Vec::new(), Vec::new());
+    for name in names {
+        match ladder(name, &options.out, &mut files) {
+            Ok((ladder, text)) => {
+                if !options.json {
+                    say(&text);
+                }
+                ladders.push(ladder);
+            }
+            Err(message) => return bad_input(&message, options.json),
+        }
+    }
     if options.json {
-        let document =
-            serde_json::json!({ "chart": "parsimony", "ladder": ladder, "files": files });
+        let mut ladders = ladders.into_iter();
+        let document = json!({
+            "chart": "parsimony",
+            "ladder": ladders.next(),
+            "further": ladders.collect::<Vec<_>>(),
+            "files": files,
+        });
         say(&format!("{document:#}\n"));
     } else {
-        say(&text(&ladder));
         for file in files {
             say(&format!("written: {}\n", file.display()));
         }
@@ -38,92 +45,25 @@ pub(super) fn chart_parsimony(options: &Options) -> ExitCode {
     ExitCode::SUCCESS
 }
 
-fn word(rung: Rung) -> String {
-    rung.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
-}
-
-fn text(ladder: &Ladder) -> String {
-    let mut out = String::new();
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        out,
-        "{}: one motion on every rung; afloat, limbs in motion without gravity.\n\
-         Deviation of the central body, at most, from the rung that is named.\n\n  \
-         {:<20}{:>7}{:>10}{:>14}{:>10}{:>12}{:>12}  from",
-        ladder.scene, "", "bodies", "unknowns", "instructions", "µs/step", "m", "rad"
-    );
-    let dash = || "–".to_owned();
-    for row in &ladder.rows {
-        let _ = writeln!(
-            out,
-            "  {:<20}{:>7}{:>10}{:>14}{:>10}{:>12}{:>12}  {}",
-            word(row.rung),
-            row.bodies,
-            row.unknowns.map_or_else(dash, |n| n.to_string()),
-            row.instructions.map_or_else(dash, |n| n.to_string()),
-            row.us_per_step.map_or_else(dash, |t| format!("{t:.2}")),
-            row.deviation_m.map_or_else(dash, |m| format!("{m:.1e}")),
-            row.deviation_rad.map_or_else(dash, |a| format!("{a:.1e}")),
-            word(row.reference),
-        );
-    }
-    let mut failures: Vec<String> = Vec::new();
-    for row in &ladder.rows {
-        if let Some(failure) = &row.failure {
-            failures.push(format!("  {}: {failure}", word(row.rung)));
+/// A scene's ladder, and the same for people.
+fn ladder(name: &str, out: &Path, files: &mut Vec<PathBuf>) -> Result<(Value, String), String> {
+    let (ladder, table, written) = match open(name).map_err(|error| error.to_string())? {
+        AnyScene::Robot(scene) => {
+            let bar = ProgressBar::new(Rung::of(&scene).len() as u64);
+            let ladder = climb(name, &scene, &|done| bar.set_position(done as u64));
+            bar.finish_and_clear();
+            let table = LadderTable::from(&ladder);
+            (json!(ladder), table.text(), table.write(out, &ladder)?)
         }
-    }
-    failures.dedup_by(|a, b| a.split_once(": ").map(|x| x.1) == b.split_once(": ").map(|x| x.1));
-    for failure in failures {
-        let _ = writeln!(out, "{failure}");
-    }
-    let _ = writeln!(
-        out,
-        "\n`surefoot run` takes the {} model: {}.",
-        ladder.chosen.model, ladder.chosen.reason
-    );
-    out
-}
-
-fn write_files(folder: &Path, ladder: &Ladder) -> Result<Vec<PathBuf>, String> {
-    let named = |ending: &str| folder.join(format!("parsimony-{}.{ending}", ladder.scene));
-    let (csv, json, svg) = (named("csv"), named("json"), named("svg"));
-    let context =
-        |path: &Path, error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-    std::fs::create_dir_all(folder).map_err(|error| context(folder, &error))?;
-    let mut writer = csv::Writer::from_path(&csv).map_err(|error| context(&csv, &error))?;
-    for row in &ladder.rows {
-        writer.serialize(row).map_err(|error| context(&csv, &error))?;
-    }
-    writer.flush().map_err(|error| context(&csv, &error))?;
-    let document = serde_json::to_string_pretty(ladder).map_err(|error| context(&json, &error))?;
-    std::fs::write(&json, document + "\n").map_err(|error| context(&json, &error))?;
-    Bars::draw(&panels(ladder), &svg).map_err(|error| error.to_string())?;
-    Ok(vec![csv, json, svg])
-}
-
-fn panels(ladder: &Ladder) -> Vec<Bars> {
-    let bars = |value: &dyn Fn(&Row) -> Option<f64>, label: &dyn Fn(f64) -> String| {
-        let bar = |row: &Row| Bar {
-            name: word(row.rung),
-            value: value(row),
-            label: value(row).map_or_else(|| "–".to_owned(), label),
-        };
-        ladder.rows.iter().map(bar).collect::<Vec<_>>()
+        AnyScene::Mechanism(scene) => {
+            let bar = ProgressBar::new(MechanismRung::of(&scene).len() as u64);
+            let ladder = climb_mechanism(name, &scene, &|done| bar.set_position(done as u64))
+                .map_err(|error| format!("{name}: {error}"))?;
+            bar.finish_and_clear();
+            let table = LadderTable::from(&ladder);
+            (json!(ladder), table.text(), table.write(out, &ladder)?)
+        }
     };
-    let scene = &ladder.scene;
-    let mut panels = Vec::new();
-    if ladder.rows.iter().any(|row| row.instructions.is_some()) {
-        let counts = bars(&|row| row.instructions.map(|n| n as f64), &|n| format!("{n:.0}"));
-        panels.push(Bars::new(format!("{scene}: instructions per step"), counts));
-    }
-    let times = bars(&|row| row.us_per_step, &|t| format!("{t:.2}"));
-    panels.push(Bars::new(format!("{scene}: time per step, µs"), times));
-    let unknowns = bars(&|row| row.unknowns.map(|n| n as f64), &|n| format!("{n:.0}"));
-    panels.push(Bars::new(format!("{scene}: unknowns"), unknowns));
-    let deviations = bars(&|row| row.deviation_m, &|m| format!("{m:.1e}"));
-    let title =
-        format!("{scene}: deviation of the central body from the full model, m (logarithmic)");
-    panels.push(Bars::new(title, deviations).logarithmic());
-    panels
+    files.extend(written);
+    Ok((ladder, table + "\n"))
 }
