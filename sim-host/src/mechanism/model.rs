@@ -97,23 +97,34 @@ pub(super) fn with_model(
         (Some(_), _) => (Box::new(simulation), whole_or_merged, asked()),
         // The first step reports it.
         (None, Err(error)) => (Box::new(simulation), whole_or_merged, error.to_string()),
-        (None, Ok(rates)) => match (planar(&simulation, &rates, &torques)?, single(&simulation, &rates)?) {
-            (Ok(planar), _) => {
-                let n = planar.plane().normal;
-                let reason = format!(
-                    "the motion stays in the plane across ({:.3}, {:.3}, {:.3})",
-                    n.x, n.y, n.z
-                );
-                (Box::new(planar), MechanismModel::Planar, reason)
+        (None, Ok(rates)) => {
+            let planar = planar(&simulation, &rates, &torques)?;
+            let single = single(&simulation, &rates)?;
+            let touches = !simulation.contacts().is_empty();
+            match (planar, single) {
+                // Without contacts it knows its way beforehand, which is cheaper yet than a plane.
+                (Ok(_), Ok(single)) if !touches => {
+                    let reason = "one free body, that touches nothing".to_owned();
+                    (Box::new(single), MechanismModel::SingleBody, reason)
+                }
+                (Ok(planar), _) => {
+                    let n = planar.plane().normal;
+                    let reason = format!(
+                        "the motion stays in the plane across ({:.3}, {:.3}, {:.3})",
+                        n.x, n.y, n.z
+                    );
+                    (Box::new(planar), MechanismModel::Planar, reason)
+                }
+                (Err(not_planar), Ok(single)) => {
+                    let reason = format!("one free body; not planar: {not_planar}");
+                    (Box::new(single), MechanismModel::SingleBody, reason)
+                }
+                (Err(not_planar), Err(_)) => {
+                    let reason = format!("not planar: {not_planar}");
+                    (Box::new(simulation), whole_or_merged, reason)
+                }
             }
-            (Err(not_planar), Ok(single)) => {
-                let reason = format!("one free body; not planar: {not_planar}");
-                (Box::new(single), MechanismModel::SingleBody, reason)
-            }
-            (Err(not_planar), Err(_)) => {
-                (Box::new(simulation), whole_or_merged, format!("not planar: {not_planar}"))
-            }
-        },
+        }
     };
     let moving: Box<dyn Moving> = match reduced {
         None => moving,

@@ -66,8 +66,13 @@ const COUNTED_S: f64 = 0.3;
 impl MechanismRung {
     /// Those that a scene bears, from the dearest to the cheapest.
     pub fn of(scene: &MechanismScene) -> Vec<Self> {
-        let all =
+        let mut all =
             [Self::Multipliers, Self::JointCoordinates, Self::Merged, Self::Planar, Self::SingleBody];
+        let touches = |started: Started| !started.moving.contacts().is_empty();
+        // One body that can touch a floor costs less in its plane than in space.
+        if start_model(scene, None).is_ok_and(touches) {
+            all.swap(3, 4);
+        }
         let bears = |rung: &Self| match rung.model() {
             None => has_constraints_only(scene),
             Some(model) => start_model(scene, Some(model)).is_ok(),

@@ -5,6 +5,9 @@ use crate::contact::ContactPoint;
 use crate::integrators::Progress;
 use serde::{Deserialize, Serialize};
 
+/// Steps from which Newton's method guesses the next.
+pub(super) const PAST: usize = 4;
+
 /// A planar motion at one time. One that goes on from here makes the same bits as one that was never stopped.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanarCheckpoint {
@@ -13,8 +16,8 @@ pub struct PlanarCheckpoint {
     pub(super) angles: Vec<f64>,
     /// By column.
     pub(super) momenta: Vec<f64>,
-    /// Increments of the last two steps by column, and their length.
-    pub(super) last: [Vec<f64>; 2],
+    /// Increments of the last steps by column, the last first, and their length.
+    pub(super) last: [Vec<f64>; PAST],
     pub(super) last_h: f64,
     /// By point that is seen in the plane.
     pub(super) memories: Vec<ContactPoint>,

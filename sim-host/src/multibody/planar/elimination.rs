@@ -58,8 +58,10 @@ impl Elimination {
             // ∂L/∂φ = J/h cos φ
             let turning = node.moment * per_step * (1.0 - end.rotation.versine);
             part.add_body(node.mass * per_step, turning, &place.to_center, &end.to_center);
-            for touch in &touches[node.touches.clone()] {
-                touch.add_to(part, &place.to_center, &end.to_center, h);
+            if !touches.is_empty() {
+                for touch in &touches[node.touches.clone()] {
+                    touch.add_to(part, &place.to_center, &end.to_center, h);
+                }
             }
             let c = node.column;
             match node.kind {

@@ -7,7 +7,7 @@ use super::super::stepping::make_step;
 use super::super::system::System;
 use super::super::system_error::SystemError;
 use super::algebra::{Pair, Turn, cross};
-use super::checkpoint::PlanarCheckpoint;
+use super::checkpoint::{PAST, PlanarCheckpoint};
 use super::elimination::Elimination;
 use super::node::{Coordinates, Kind, Node, Place, nodes};
 use super::not_planar::PlanarError;
@@ -107,7 +107,7 @@ impl PlanarSimulation {
             coordinates: vec![Coordinates::START; nodes.len()],
             angles: laws.iter().map(|law| whole.angle(law.node)).collect(),
             momenta: vec![0.0; columns],
-            last: [(); 2].map(|()| vec![0.0; columns]),
+            last: [(); PAST].map(|()| vec![0.0; columns]),
             last_h: h,
             memories: vec![ContactPoint::default(); touches.len()],
             fastest: system.gravity().abs() * h,
@@ -248,8 +248,7 @@ impl PlanarSimulation {
             let each = self.corrections.iter().zip(&self.turns);
             for (c, (rate, is_turn)) in each.enumerate() {
                 let way = if *is_turn { 0.5 * rate * h } else { rate * h };
-                self.at.last[0][c] = way;
-                self.at.last[1][c] = way;
+                self.at.last.iter_mut().for_each(|last| last[c] = way);
             }
         }
     }

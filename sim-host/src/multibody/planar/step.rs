@@ -53,6 +53,14 @@ impl End {
     };
 }
 
+/// What all bodies have in common in a step: its length, one over it, and half of what gravity does in it to the
+/// momentum of a kilogram.
+struct Span {
+    h: f64,
+    per_step: f64,
+    weight: Vector2<f64>,
+}
+
 /// A force and its moment about the reference point, along a joint's columns.
 #[inline(always)]
 pub(super) fn project(node: &Node, place: &Place, all: &Pair, along: &mut impl FnMut(usize, f64)) {
@@ -87,9 +95,15 @@ impl PlanarSimulation {
     /// Evaluates (1) at the increments; tells the sum of the squares of the residuals, as speeds.
     #[inline]
     pub(super) fn residuals(&mut self, h: f64) -> f64 {
+        let mut fastest = self.at.fastest;
+        let span = Span { h, per_step: 1.0 / h, weight: self.gravity * (0.5 * h) };
         for k in 0..self.nodes.len() {
-            self.ends[k] = self.end(k, h);
+            let (end, speed) = self.end(k, &span);
+            self.ends[k] = end;
+            // NaN stays out, and is found in the residuals.
+            fastest = fastest.max(speed.min(fastest.max(1.0) * 2.0));
         }
+        self.at.fastest = fastest;
         self.find_laws(h);
         let mut sum = 0.0;
         for k in (0..self.nodes.len()).rev() {
@@ -123,8 +137,9 @@ impl PlanarSimulation {
         if self.nodes[node].kind == Kind::Prismatic { increment } else { 2.0 * increment.atan() }
     }
 
+    /// Where a body is in the trial, and how fast it gets there, m/s.
     #[inline(always)]
-    fn end(&mut self, k: usize, h: f64) -> End {
+    fn end(&mut self, k: usize, span: &Span) -> (End, f64) {
         let (node, place) = (&self.nodes[k], &self.places[k]);
         let by = &self.increments[node.column..];
         let (turn_i, rotation_i, moved_i) = match node.inboard {
@@ -157,28 +172,26 @@ impl PlanarSimulation {
         }
         let of_center = rotation.displacement(&place.to_center);
         let moved = displacement + of_center;
-        let per_step = 1.0 / h;
-        let velocity = moved * per_step;
-        let speed = velocity.x.abs().max(velocity.y.abs());
-        // NaN stays out, and is found in the residuals.
-        self.at.fastest = self.at.fastest.max(speed.min(self.at.fastest.max(1.0) * 2.0));
-        let momentum =
-            Pair { linear: velocity * node.mass, angular: node.moment * per_step * rotation.sine };
-        let mut linear = momentum.linear - self.gravity * (0.5 * h * node.mass);
+        let velocity = moved * span.per_step;
+        let momentum = Pair {
+            linear: velocity * node.mass,
+            angular: node.moment * span.per_step * rotation.sine,
+        };
+        let mut linear = momentum.linear - span.weight * node.mass;
         let mut angular = momentum.angular;
         if let Some(ground) = self.system.ground() {
             let center = place.reference + place.to_center;
             let memories = &self.at.memories[node.touches.clone()];
             for (touch, memory) in self.touches[node.touches.clone()].iter_mut().zip(memories) {
                 let way = rotation.displacement(&touch.begin);
-                touch.meet(ground, memory, &center, (&moved, &way), h);
-                let impulse = touch.at_begin(h);
+                touch.meet(ground, memory, &center, (&moved, &way), span.h);
+                let impulse = touch.at_begin(span.h);
                 linear -= impulse.linear;
                 angular -= impulse.angular;
             }
         }
         let own = Pair { linear, angular: angular + cross(&place.to_center, &linear) };
-        End {
+        let end = End {
             turn,
             rotation,
             displacement,
@@ -188,7 +201,8 @@ impl PlanarSimulation {
             momentum,
             own,
             all: own,
-        }
+        };
+        (end, velocity.x.abs().max(velocity.y.abs()))
     }
 
     /// `w⁺` of a body alone, about its reference point where the step leads to.
@@ -196,7 +210,9 @@ impl PlanarSimulation {
         let (node, end) = (&self.nodes[k], &self.ends[k]);
         let Pair { mut linear, mut angular } = end.momentum;
         linear += self.gravity * (0.5 * h * node.mass);
-        for touch in &self.touches[node.touches.clone()] {
+        // Without a floor there is nothing to look through.
+        let touches = if self.touches.is_empty() { &[] } else { &self.touches[node.touches.clone()] };
+        for touch in touches {
             let impulse = touch.at_end(h);
             linear += impulse.linear;
             angular += impulse.angular;
