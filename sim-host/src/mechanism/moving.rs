@@ -96,18 +96,25 @@ impl<S: Lagrangian<N, C>, const N: usize, const C: usize> Moving for Moved<S, N,
     }
 }
 
-/// Angular momentum of all bodies, N·m·s. Nothing of it is conserved that is not the pivot's affair, unless they
-/// float without gravity.
-pub(super) fn conserved_momentum(
-    system: &System,
-    states: &[BodyState],
-    rates: &[BodyState],
-) -> Vec<f64> {
-    let is_free = system.gravity() == 0.0
+/// Whether nothing holds the bodies from without: else nothing of their angular momentum is conserved that is not
+/// the pivot's affair.
+pub(super) fn is_free(system: &System) -> bool {
+    system.gravity() == 0.0
         && system.ground().is_none()
         && system.closures().iter().all(|closure| closure.inboard.is_some())
-        && system.links().iter().all(|l| l.inboard.is_some() || l.joint.constraints() == 0);
-    if is_free { system.momentum(states, rates).1.to_vec() } else { Vec::new() }
+        && system.links().iter().all(|l| l.inboard.is_some() || l.joint.constraints() == 0)
+}
+
+/// What [`Moving::conserved`] tells of bodies; their rates are asked for where these are free.
+pub(super) fn conserved(
+    system: &System,
+    (kinetic, potential): (f64, f64),
+    states: &[BodyState],
+    rates: &[BodyState],
+) -> (f64, Vec<f64>, f64) {
+    let momentum =
+        if is_free(system) { system.momentum(states, rates).1.to_vec() } else { Vec::new() };
+    (kinetic + potential, momentum, system.largest_constraint(states))
 }
 
 impl Moving for Simulation {
@@ -120,11 +127,9 @@ impl Moving for Simulation {
     }
 
     fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError> {
-        let (states, rates) = (self.states(), self.rates()?);
-        let energy = self.energies().map(|(kinetic, potential)| kinetic + potential)?;
-        let system = self.system();
-        let momentum = conserved_momentum(system, &states, &rates);
-        Ok((energy, momentum, system.largest_constraint(&states)))
+        let energies = self.energies()?;
+        let rates = if is_free(self.system()) { self.rates()? } else { Vec::new() };
+        Ok(conserved(self.system(), energies, &self.states(), &rates))
     }
 
     fn progress(&self) -> &Progress {

@@ -1,22 +1,10 @@
 //! Motions in a plane, and of one free body, as those of any other mechanism.
 
-use super::moving::{Moving, conserved_momentum};
+use super::moving::{Moving, conserved, is_free};
 use crate::contact::ContactPoint;
 use crate::integrators::{Progress, StepError};
-use crate::multibody::{
-    BodyState, PlanarSimulation, Simulation, SingleBody, System, SystemError,
-};
+use crate::multibody::{BodyState, PlanarSimulation, Simulation, SingleBody, System, SystemError};
 use crate::record::SavedMotion;
-
-/// What all of a motion's bodies conserve.
-fn conserved(
-    system: &System,
-    (states, rates): (&[BodyState], &[BodyState]),
-    (kinetic, potential): (f64, f64),
-) -> (f64, Vec<f64>, f64) {
-    let momentum = conserved_momentum(system, states, rates);
-    (kinetic + potential, momentum, system.largest_constraint(states))
-}
 
 /// Told by the simulator in space, where the motion is now. A singular inertia is the step's to report.
 fn forecast_s(
@@ -37,8 +25,9 @@ impl Moving for PlanarSimulation {
     }
 
     fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError> {
-        let (states, rates, energies) = (self.states(), self.rates()?, self.energies()?);
-        Ok(conserved(self.system(), (&states, &rates), energies))
+        let energies = self.energies()?;
+        let rates = if is_free(self.system()) { self.rates()? } else { Vec::new() };
+        Ok(conserved(self.system(), energies, &self.states(), &rates))
     }
 
     fn progress(&self) -> &Progress {
@@ -80,8 +69,7 @@ impl Moving for SingleBody {
     }
 
     fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError> {
-        let (state, rate) = (Self::state(self), self.rate());
-        Ok(conserved(self.system(), (&[state], &[rate]), self.energies()))
+        Ok(conserved(self.system(), self.energies(), &[Self::state(self)], &[self.rate()]))
     }
 
     fn progress(&self) -> &Progress {

@@ -33,7 +33,7 @@ pub use constrained::{ConstrainedSimulation, Correction, Equations, SingularJoin
 pub use gimbal::Gimbal;
 pub use joint::{Joint, JointConstraint, MOST_CONSTRAINTS, Rows};
 pub use joint_law::{JointLaw, Stops};
-pub use planar::{NotPlanar, Plane, PlanarCheckpoint, PlanarError, PlanarSimulation};
+pub use planar::{NotPlanar, PlanarCheckpoint, PlanarError, PlanarSimulation, Plane};
 pub use recursive::{Checkpoint, Simulation, StepForecast};
 pub use reduction::{Frame, Reduced, Side, lumped, merged};
 pub use robot::{states_of_tree, system_of_tree};

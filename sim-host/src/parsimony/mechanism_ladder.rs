@@ -66,8 +66,13 @@ const COUNTED_S: f64 = 0.3;
 impl MechanismRung {
     /// Those that a scene bears, from the dearest to the cheapest.
     pub fn of(scene: &MechanismScene) -> Vec<Self> {
-        let mut all =
-            [Self::Multipliers, Self::JointCoordinates, Self::Merged, Self::Planar, Self::SingleBody];
+        let mut all = [
+            Self::Multipliers,
+            Self::JointCoordinates,
+            Self::Merged,
+            Self::Planar,
+            Self::SingleBody,
+        ];
         let touches = |started: Started| !started.moving.contacts().is_empty();
         // One body that can touch a floor costs less in its plane than in space.
         if start_model(scene, None).is_ok_and(touches) {
@@ -96,11 +101,7 @@ impl MechanismRung {
     ///
     /// # Errors
     /// A [`PlayFailure`].
-    pub fn play(
-        self,
-        scene: &MechanismScene,
-        copies: NonZeroUsize,
-    ) -> Result<Played, PlayFailure> {
+    pub fn play(self, scene: &MechanismScene, copies: NonZeroUsize) -> Result<Played, PlayFailure> {
         let h = scene.integrator.step_s;
         let steps = (scene.duration_s / h).round().max(1.0) as u64;
         let Some(model) = self.model() else {
@@ -118,11 +119,17 @@ impl MechanismRung {
             (0..copies.get()).map(|_| one()).collect();
         let copies = copies?;
         let unknowns = copies.first().map_or(0, |one| one.borrow().unknowns());
-        fly(copies, steps, unknowns, |one| one.get_mut().step(), |one| {
-            // A motion that has no velocities any more fails at the next step.
-            let states = one.borrow_mut().state().map(|(states, _)| states).unwrap_or_default();
-            states.as_chunks().0.to_vec()
-        })
+        fly(
+            copies,
+            steps,
+            unknowns,
+            |one| one.get_mut().step(),
+            |one| {
+                // A motion that has no velocities any more fails at the next step.
+                let states = one.borrow_mut().state().map(|(states, _)| states).unwrap_or_default();
+                states.as_chunks().0.to_vec()
+            },
+        )
     }
 }
 

@@ -140,7 +140,13 @@ impl Rung {
         }
         if self == Self::FlightFull {
             let unknowns = full.unknowns();
-            return fly(vec![full; copies], steps, unknowns, Simulation::step, |one| [one.state(0)]);
+            return fly(
+                vec![full; copies],
+                steps,
+                unknowns,
+                Simulation::step,
+                |one| [one.state(0)],
+            );
         }
         let reduced = lumped(full.system(), &SMALL_BODIES)?;
         let (states, rates) = reduced.start(&states, &rates);

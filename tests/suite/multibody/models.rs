@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use surefoot_sim::mechanism::{MechanismModel, NotMerged, StartFailure, run_model, start_model};
 use surefoot_sim::multibody::{NotPlanar, NotSingle};
 use surefoot_sim::parsimony::MechanismRung;
-use surefoot_sim::scene::{AnyScene, MechanismScene, open};
+use surefoot_sim::scene::{AnyScene, MechanismScene, open, parse};
 
 fn scene(name: &str, duration_s: f64) -> MechanismScene {
     let AnyScene::Mechanism(mut scene) = open(name).expect("built in") else { unreachable!() };
@@ -28,6 +28,51 @@ fn scenes_are_played_with_the_smallest_model() {
     assert_eq!(start_model(&scene("rigid-body", 1.0), None).expect("a start").model, None);
 }
 
+/// One body in a plane: in space where it touches nothing, and knows its way beforehand; in its plane on a floor.
+#[test]
+fn one_free_body_is_played_as_what_costs_least() {
+    let text = |floor: &str, points: &str| {
+        format!(
+            r#"
+description = "a box thrown about its first axis"
+duration_s = 1.0
+[integrator]
+name = "variational"
+step_s = 1e-3
+[mechanism]
+kind = "multibody"
+gravity_m_s2 = 9.81
+{floor}
+[[mechanism.bodies]]
+name = "box"
+mass_kg = 1.0
+inertia_kg_m2 = [0.01, 0.03, 0.02]
+center_m = [0.0, 0.0, 0.3]
+joint = {{ kind = "floating", velocity_m_s = [1.0, 0.0, 0.0], angular_velocity_rad_s = [0.0, 4.0, 0.0] }}
+{points}
+"#
+        )
+    };
+    let floor = "floor = { normal_stiffness = 7e4, normal_damping = 2e2, tangential_stiffness = 7e4, \
+                 tangential_damping = 2e2, static_friction = 0.4, dynamic_friction = 0.4, \
+                 zero_velocity_threshold = 1e-3 }";
+    let pair = "contact_points_m = [[0.1, 0.2, -0.1], [0.1, -0.2, -0.1]]";
+    let one = "contact_points_m = [[0.1, 0.2, -0.1]]";
+    for (text, model) in [
+        (text("", ""), MechanismModel::SingleBody),
+        (text(floor, pair), MechanismModel::Planar),
+        (text(floor, one), MechanismModel::SingleBody),
+    ] {
+        let AnyScene::Mechanism(scene) = parse("test", &text).expect("a scene") else {
+            unreachable!()
+        };
+        let run = run_model(&scene, None, None, &mut |_| {}).expect("a run");
+        assert!(run.failure.is_none(), "{:?}", run.failure);
+        let chosen = run.model.expect("a model");
+        assert_eq!(chosen.model, model, "{}", chosen.reason);
+    }
+}
+
 /// All models tell the same motion of all bodies, the same energy and the same touch-downs.
 #[test]
 fn models_that_are_asked_for_tell_the_same() {
@@ -44,7 +89,11 @@ fn models_that_are_asked_for_tell_the_same() {
             for (a, b) in full.samples.iter().zip(&other.samples) {
                 let each = a.configuration.iter().zip(&b.configuration);
                 worst = each.fold(worst, |m, (a, b)| m.max((a - b).abs()));
-                assert!((a.energy - b.energy).abs() < 1e-7 * a.energy.abs(), "{name}, {}", a.time_s);
+                assert!(
+                    (a.energy - b.energy).abs() < 1e-7 * a.energy.abs(),
+                    "{name}, {}",
+                    a.time_s
+                );
             }
             println!("{name}, {model}: {worst:.1e}");
             assert!(worst < 1e-9, "{name}, {model}: {worst}");
@@ -56,9 +105,8 @@ fn models_that_are_asked_for_tell_the_same() {
 
 #[test]
 fn what_a_scene_does_not_bear_is_told() {
-    let refused = |name: &str, model| {
-        start_model(&scene(name, 1.0), Some(model)).err().expect("a failure")
-    };
+    let refused =
+        |name: &str, model| start_model(&scene(name, 1.0), Some(model)).err().expect("a failure");
     assert_eq!(
         refused("chain", MechanismModel::Planar),
         StartFailure::NotPlanar(NotPlanar::Axis { link: 1 })
@@ -103,9 +151,11 @@ fn rungs_are_one_motion() {
         let reference = play(&JointCoordinates);
         for rung in &rungs {
             let played = play(rung);
-            let worst = reference.path.iter().zip(&played.path).fold(0.0_f64, |m, (a, b)| {
-                (0..3).fold(m, |m, i| m.max((a[i] - b[i]).abs()))
-            });
+            let worst = reference
+                .path
+                .iter()
+                .zip(&played.path)
+                .fold(0.0_f64, |m, (a, b)| (0..3).fold(m, |m, i| m.max((a[i] - b[i]).abs())));
             println!("{name}, {rung:?}: {worst:.1e}, {} unknowns", played.unknowns);
             assert_eq!(reference.path.len(), played.path.len());
             assert!(worst < 1e-9, "{name}, {rung:?}: {worst}");

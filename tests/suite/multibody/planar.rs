@@ -61,7 +61,8 @@ fn random_planar_tree(seed: u64, floats: bool, on_floor: bool) -> Start {
         let (on, v_i, omega_i) = match inboard {
             Some(i) => frames[i],
             None => {
-                let still = Frame { position: Vector3::zeros(), orientation: Quaternion::identity() };
+                let still =
+                    Frame { position: Vector3::zeros(), orientation: Quaternion::identity() };
                 (still, Vector3::zeros(), Vector3::zeros())
             }
         };
@@ -91,7 +92,8 @@ fn random_planar_tree(seed: u64, floats: bool, on_floor: bool) -> Start {
                 (JointConstraint::Revolute { axis }, omega, v)
             }
         };
-        let at = |frame: &Frame| frame.orientation.conjugate().rotate(point - frame.position).into();
+        let at =
+            |frame: &Frame| frame.orientation.conjugate().rotate(point - frame.position).into();
         let joint = Joint {
             outboard: at(&frame),
             inboard: at(&on),
@@ -178,13 +180,15 @@ fn a_planar_motion_is_the_one_in_space() {
 /// What leaves the plane is told, and why.
 #[test]
 fn motions_that_leave_the_plane_are_told() {
-    let why = |system: System, states: &[BodyState], rates: &[BodyState]| {
-        match PlanarSimulation::new(system, 1e-3, states, rates) {
+    let why =
+        |system: System, states: &[BodyState], rates: &[BodyState]| match PlanarSimulation::new(
+            system, 1e-3, states, rates,
+        ) {
             Err(PlanarError::NotPlanar(reason)) => reason,
             other => panic!("{other:?}"),
-        }
-    };
-    let still = Frame { position: Vector3::new(0.0, 0.0, 1.0), orientation: Quaternion::identity() };
+        };
+    let still =
+        Frame { position: Vector3::new(0.0, 0.0, 1.0), orientation: Quaternion::identity() };
     let body = |inertia: [f64; 3]| Body { mass: 1.0, inertia };
     let link = |inboard, constraint, inertia| {
         let home = [1.0, 0.0, 0.0, 0.0];
@@ -280,9 +284,8 @@ fn a_single_body_moves_as_a_tree_of_one() {
             let corner = |k: usize, axis: usize| if k >> axis & 1 == 0 { 0.1 } else { -0.1 };
             let sites = (0..8).map(|k| Site { link: 0, position: [0, 1, 2].map(|a| corner(k, a)) });
             let floor = Floor { normal_damping: 200.0, ..Floor::RUBBER };
-            system = system
-                .on_floor(floor, Switching::WithinTheStep, sites.collect())
-                .expect("a floor");
+            system =
+                system.on_floor(floor, Switching::WithinTheStep, sites.collect()).expect("a floor");
         }
         let mut tree = Simulation::new(system.clone(), 1e-3, &[x], &[v]).expect("a start");
         let mut single = SingleBody::new(system, 1e-3, &[x], &[v]).expect("a start");

@@ -165,10 +165,8 @@ impl LadderTable {
         let unknowns = bars(&|line| line.unknowns.map(|n| n as f64), &|n| format!("{n:.0}"));
         panels.push(Bars::new(format!("{scene}: unknowns"), unknowns));
         let deviations = bars(&|line| line.deviation_m, &|m| format!("{m:.1e}"));
-        let title = format!(
-            "{scene}: deviation of {} from the full model, m (logarithmic)",
-            self.who
-        );
+        let title =
+            format!("{scene}: deviation of {} from the full model, m (logarithmic)", self.who);
         panels.push(Bars::new(title, deviations).logarithmic());
         panels
     }

@@ -68,10 +68,7 @@ impl Rotation {
     /// `R r − r`
     #[inline]
     pub fn displacement(&self, r: &Vector2<f64>) -> Vector2<f64> {
-        Vector2::new(
-            -self.sine * r.y - self.versine * r.x,
-            self.sine * r.x - self.versine * r.y,
-        )
+        Vector2::new(-self.sine * r.y - self.versine * r.x, self.sine * r.x - self.versine * r.y)
     }
 
     /// `R r`
@@ -135,13 +132,7 @@ impl Stiffness {
     /// A body's own about its reference point: mass over the step, and `turning` about the centre of mass, from
     /// which the arms lead.
     #[inline]
-    pub fn add_body(
-        &mut self,
-        mass: f64,
-        turning: f64,
-        begin: &Vector2<f64>,
-        end: &Vector2<f64>,
-    ) {
+    pub fn add_body(&mut self, mass: f64, turning: f64, begin: &Vector2<f64>, end: &Vector2<f64>) {
         self.force_by_place[(0, 0)] += mass;
         self.force_by_place[(1, 1)] += mass;
         self.force_by_turn += quarter(end) * mass;

@@ -84,11 +84,7 @@ impl Elimination {
             if let Some(inboard) = node.inboard {
                 let part = *part;
                 self.arms[k] = end.from_inboard;
-                self.stiffness[inboard].add_shifted(
-                    &part,
-                    &place.from_inboard,
-                    &end.from_inboard,
-                );
+                self.stiffness[inboard].add_shifted(&part, &place.from_inboard, &end.from_inboard);
             }
         }
         Ok(())

@@ -42,7 +42,9 @@ pub enum NotPlanar {
         link: usize,
     },
     /// A tree that floats turns about its middle axis of inertia: whatever disturbs it tips it over.
-    #[error("link {link} floats, with the middle one of the moments of inertia about the plane's normal")]
+    #[error(
+        "link {link} floats, with the middle one of the moments of inertia about the plane's normal"
+    )]
     Tips {
         /// The tree's first.
         link: usize,

@@ -208,9 +208,8 @@ impl Plane {
         for (site, (link, arm)) in points.iter().enumerate() {
             let Some(root) = floats[*link] else { continue };
             let here = arm + bodies[*link].center - bodies[root].center;
-            let same = |other: &&(usize, Vector3<f64>)| {
-                other.0 == *link && self.is_one(arm, &other.1)
-            };
+            let same =
+                |other: &&(usize, Vector3<f64>)| other.0 == *link && self.is_one(arm, &other.1);
             let beside: f64 =
                 points.iter().filter(same).map(|(_, p)| (here + p - arm).dot(&self.normal)).sum();
             if beside.abs() > EXACT * (1.0 + here.norm()) {

@@ -88,11 +88,12 @@ impl PlanarSimulation {
         let (states, system) = (whole.states(), whole.system().clone());
         let plane = Plane::of(&system, &states, rates)?;
         let (touches, part_of) = touches(&system, &plane, &states);
-        let (nodes, columns) =
-            nodes(&system, &plane, &states, |link| of_link(&touches, link));
+        let (nodes, columns) = nodes(&system, &plane, &states, |link| of_link(&touches, link));
         let law = |(link, law): &(usize, JointLaw)| {
             let node = &nodes[*link];
-            let axis = |axis: [f64; 3]| Body::of(&states[*link], &[0.0; 7]).orientation.rotate(axis.into());
+            let axis = |axis: [f64; 3]| {
+                Body::of(&states[*link], &[0.0; 7]).orientation.rotate(axis.into())
+            };
             let sign = match system.links()[*link].joint.constraint {
                 super::super::JointConstraint::Revolute { axis: a } => {
                     axis(a).dot(&plane.normal).signum()
@@ -117,7 +118,8 @@ impl PlanarSimulation {
             let body = Body::of(x, &[0.0; 7]);
             Beside { along: body.center.dot(&plane.normal), orientation: body.orientation }
         });
-        let kinds = || nodes.iter().flat_map(|node| (0..node.kind.columns()).map(move |c| (node.kind, c)));
+        let kinds =
+            || nodes.iter().flat_map(|node| (0..node.kind.columns()).map(move |c| (node.kind, c)));
         let mut planar = Self {
             plane,
             beside: beside.collect(),

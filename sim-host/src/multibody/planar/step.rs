@@ -211,7 +211,8 @@ impl PlanarSimulation {
         let Pair { mut linear, mut angular } = end.momentum;
         linear += self.gravity * (0.5 * h * node.mass);
         // Without a floor there is nothing to look through.
-        let touches = if self.touches.is_empty() { &[] } else { &self.touches[node.touches.clone()] };
+        let touches =
+            if self.touches.is_empty() { &[] } else { &self.touches[node.touches.clone()] };
         for touch in touches {
             let impulse = touch.at_end(h);
             linear += impulse.linear;

@@ -33,7 +33,8 @@ pub(super) fn touches(
     for site in system.sites() {
         let body = Body::of(&states[site.link], &[0.0; 7]);
         let arm = body.orientation.rotate(site.position.into());
-        let known = (0..all.len()).find(|k| all[*k].link == site.link && plane.is_one(&arms[*k], &arm));
+        let known =
+            (0..all.len()).find(|k| all[*k].link == site.link && plane.is_one(&arms[*k], &arm));
         part_of.push(known.unwrap_or(all.len()));
         if let Some(known) = known {
             all[known].weight += 1.0;

@@ -24,9 +24,8 @@ impl Move {
 
     /// A guess of the next one, in a step `ratio` times as long: that it changes as it did from the one before.
     pub fn beyond(&self, before: &Self, ratio: f64) -> Self {
-        let next = |last: &Vector3<f64>, before: &Vector3<f64>| {
-            (last + (last - before) * ratio) * ratio
-        };
+        let next =
+            |last: &Vector3<f64>, before: &Vector3<f64>| (last + (last - before) * ratio) * ratio;
         Self { way: next(&self.way, &before.way), turn: next(&self.turn, &before.turn) }
     }
 }

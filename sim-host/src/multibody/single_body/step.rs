@@ -58,18 +58,27 @@ impl Trial {
     };
 }
 
-/// How a trial answers to impulses: inverses, by which corrections are found.
+/// How a trial answers to impulses: what finds corrections.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Answer {
-    /// Of the derivative of (2) alone, in the body's axes.
-    Free(Matrix3<f64>),
-    /// Of the derivatives of (1) and (2) together, in the world's axes: `A⁻¹`, `B`, `C A⁻¹`,
-    /// `(D − C A⁻¹ B)⁻¹`.
-    Touching([Matrix3<f64>; 4]),
+pub(super) struct Answer {
+    /// Inverse of the derivative of (2): alone, in the body's axes; with the floor's forces, of what (1) leaves of it,
+    /// `(D − C A⁻¹ B)⁻¹`, in the world's axes.
+    turn: Matrix3<f64>,
+    /// None in flight.
+    coupling: Option<Coupling>,
+}
+
+/// `A⁻¹`, `B`, `C A⁻¹` of the derivatives `[A B; C D]` of (1) and (2), world axes.
+#[derive(Clone, Copy, Debug)]
+struct Coupling {
+    a_inverse: Matrix3<f64>,
+    b: Matrix3<f64>,
+    c_a_inverse: Matrix3<f64>,
 }
 
 impl Answer {
-    pub const NONE: Self = Self::Free(Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0));
+    pub const NONE: Self =
+        Self { turn: Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), coupling: None };
 }
 
 fn skew(r: &Vector3<f64>) -> Matrix3<f64> {
@@ -93,7 +102,7 @@ impl SingleBody {
     fn answer(&self, h: f64) -> Option<Answer> {
         let turning = self.turning(h);
         if !self.trial.touches {
-            return turning.try_inverse().map(Answer::Free);
+            return turning.try_inverse().map(|turn| Answer { turn, coupling: None });
         }
         let mut a = Matrix3::from_diagonal_element(self.mass / h);
         let (mut b, mut c) = (Matrix3::zeros(), Matrix3::zeros());
@@ -109,10 +118,10 @@ impl SingleBody {
             c += begin * k;
             d -= begin * by_turn;
         }
-        let inverse = a.try_inverse()?;
-        let c_inverse = c * inverse;
-        let left = (d - c_inverse * b).try_inverse()?;
-        Some(Answer::Touching([inverse, b, c_inverse, left]))
+        let a_inverse = a.try_inverse()?;
+        let c_a_inverse = c * a_inverse;
+        let turn = (d - c_a_inverse * b).try_inverse()?;
+        Some(Answer { turn, coupling: Some(Coupling { a_inverse, b, c_a_inverse }) })
     }
 
     /// Forces of the floor at the trial, with their impulses in the residuals.
@@ -193,13 +202,12 @@ impl StepEquations for SingleBody {
             self.answer = self.answer(h).ok_or(0_usize)?;
         }
         let Trial { linear, angular, .. } = &self.trial;
-        self.correction = match &self.answer {
-            Answer::Free(inverse) => {
-                Move { way: linear * (-h / self.mass), turn: inverse * -angular }
-            }
-            Answer::Touching([inverse, b, c_inverse, left]) => {
-                let turn = left * (c_inverse * linear - self.rotation * angular);
-                let way = -(inverse * (linear + b * turn));
+        let inverse = &self.answer.turn;
+        self.correction = match &self.answer.coupling {
+            None => Move { way: linear * (-h / self.mass), turn: inverse * -angular },
+            Some(Coupling { a_inverse, b, c_a_inverse }) => {
+                let turn = inverse * (c_a_inverse * linear - self.rotation * angular);
+                let way = -(a_inverse * (linear + b * turn));
                 Move { way, turn: self.rotation.tr_mul(&turn) }
             }
         };
