@@ -220,6 +220,7 @@ fn motions_that_leave_the_plane_are_told() {
     let (x0, _) = state(&origin, Vector3::zeros(), Vector3::zeros());
     let two = |second| why(chain(second), &[x0, x0], &[rest, rest]);
     assert_eq!(two(revolute([0.0, 0.0, 1.0])), NotPlanar::Axis { link: 1 });
+    assert_eq!(two(revolute([0.0; 3])), NotPlanar::Axis { link: 1 });
     assert_eq!(
         two(JointConstraint::Prismatic { axis: [0.0, 1.0, 0.0] }),
         NotPlanar::Slide { link: 1 }

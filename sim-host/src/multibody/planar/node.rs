@@ -50,6 +50,8 @@ pub(super) struct Node {
     pub arm: Vector2<f64>,
     /// Of a prismatic joint.
     pub axis: Vector2<f64>,
+    /// Whether a revolute joint's angle counts about the plane's normal, 1, or against it, −1; of others 1.
+    pub sense: f64,
 }
 
 /// How far a joint is from where it was at the start.
@@ -137,8 +139,12 @@ pub(super) fn nodes(
     let nodes = system.links().iter().zip(&bodies).enumerate().map(|(k, (link, body))| {
         let q = body.orientation;
         let joint = &link.joint;
+        let mut sense = 1.0;
         let (kind, axis) = match joint.constraint {
-            JointConstraint::Revolute { .. } => (Kind::Revolute, Vector2::zeros()),
+            JointConstraint::Revolute { axis } => {
+                sense = q.rotate(axis.into()).dot(&plane.normal).signum();
+                (Kind::Revolute, Vector2::zeros())
+            }
             JointConstraint::Prismatic { axis } => {
                 let axis = Vector3::from(axis);
                 let world = link.inboard.map_or(axis, |i| bodies[i].orientation.rotate(axis));
@@ -165,6 +171,7 @@ pub(super) fn nodes(
             lever: plane.seen(&(reference - from)),
             arm: plane.seen(&arm),
             axis,
+            sense,
         };
         columns += kind.columns();
         node

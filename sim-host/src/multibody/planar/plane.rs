@@ -53,7 +53,7 @@ impl Plane {
     ///
     /// # Errors
     /// [`NotPlanar`]: the reason why there is none.
-    pub fn of(
+    pub(super) fn of(
         system: &System,
         states: &[BodyState],
         rates: &[BodyState],
@@ -105,13 +105,11 @@ impl Plane {
                 frame.map_or(axis, |k| bodies[k].orientation.rotate(axis))
             };
             match l.joint.constraint {
-                JointConstraint::Revolute { axis }
-                    if along(axis, Some(link)).cross(n).norm() > EXACT =>
-                {
+                JointConstraint::Revolute { axis } if !is_parallel(&along(axis, Some(link)), n) => {
                     return Err(NotPlanar::Axis { link });
                 }
                 JointConstraint::Prismatic { axis }
-                    if along(axis, l.inboard).dot(n).abs() > EXACT =>
+                    if !(along(axis, l.inboard).dot(n).abs() <= EXACT) =>
                 {
                     return Err(NotPlanar::Slide { link });
                 }
@@ -121,12 +119,12 @@ impl Plane {
                 JointConstraint::Floating => {
                     let speed = body.velocity.norm() + 1.0;
                     let spin = body.omega.norm() + 1.0;
-                    let leaves = body.velocity.dot(n).abs() > EXACT * speed
-                        || body.omega.cross(n).norm() > EXACT * spin;
-                    if leaves {
+                    let stays = body.velocity.dot(n).abs() <= EXACT * speed
+                        && body.omega.cross(n).norm() <= EXACT * spin;
+                    if !stays {
                         return Err(NotPlanar::Start { link });
                     }
-                    if system.gravity() != 0.0 && n.z.abs() > EXACT {
+                    if system.gravity() != 0.0 && !(n.z.abs() <= EXACT) {
                         return Err(NotPlanar::Weight { link });
                     }
                 }
@@ -139,18 +137,18 @@ impl Plane {
             if let Some(root) = root {
                 let turning = self.inertia(system, bodies, link);
                 let off = Vector2::new(turning[(0, 2)], turning[(1, 2)]).norm();
-                if off > EXACT * turning[(2, 2)] {
+                if !(off <= EXACT * turning[(2, 2)]) {
                     return Err(NotPlanar::Inertia { link });
                 }
                 let arm = body.center - bodies[root].center;
-                if arm.dot(n).abs() > EXACT * (1.0 + arm.norm()) {
+                if !(arm.dot(n).abs() <= EXACT * (1.0 + arm.norm())) {
                     return Err(NotPlanar::Beside { link });
                 }
             }
             floats.push(root);
         }
         self.check_tips(system, bodies, &floats)?;
-        if !system.sites().is_empty() && n.z.abs() > EXACT {
+        if !system.sites().is_empty() && !(n.z.abs() <= EXACT) {
             return Err(NotPlanar::Floor);
         }
         self.check_sites(system, bodies, &floats)
@@ -212,7 +210,7 @@ impl Plane {
                 |other: &&(usize, Vector3<f64>)| other.0 == *link && self.is_one(arm, &other.1);
             let beside: f64 =
                 points.iter().filter(same).map(|(_, p)| (here + p - arm).dot(&self.normal)).sum();
-            if beside.abs() > EXACT * (1.0 + here.norm()) {
+            if !(beside.abs() <= EXACT * (1.0 + here.norm())) {
                 return Err(NotPlanar::Site { site });
             }
         }
@@ -266,6 +264,11 @@ fn normals(system: &System, bodies: &[Body]) -> Vec<Vector3<f64>> {
         found = vec![Vector3::y(), Vector3::x()];
     }
     found
+}
+
+/// Whether an axis, which may have been given no length, is parallel to the normal.
+fn is_parallel(axis: &Vector3<f64>, n: &Vector3<f64>) -> bool {
+    axis.cross(n).norm() < EXACT * axis.norm()
 }
 
 /// A unit vector across another.

@@ -90,17 +90,8 @@ impl PlanarSimulation {
         let (touches, part_of) = touches(&system, &plane, &states);
         let (nodes, columns) = nodes(&system, &plane, &states, |link| of_link(&touches, link));
         let law = |(link, law): &(usize, JointLaw)| {
-            let node = &nodes[*link];
-            let axis = |axis: [f64; 3]| {
-                Body::of(&states[*link], &[0.0; 7]).orientation.rotate(axis.into())
-            };
-            let sign = match system.links()[*link].joint.constraint {
-                super::super::JointConstraint::Revolute { axis: a } => {
-                    axis(a).dot(&plane.normal).signum()
-                }
-                _ => 1.0,
-            };
-            Law { node: *link, column: node.column, law: *law, sign }
+            let Node { column, sense, .. } = nodes[*link];
+            Law { node: *link, column, law: *law, sign: sense }
         };
         let laws: Vec<Law> = system.laws().iter().map(law).collect();
         let down = Vector3::new(0.0, 0.0, -system.gravity());
@@ -202,16 +193,10 @@ impl PlanarSimulation {
     /// Holds a torque (N·m) in a revolute joint, or a force (N) in a prismatic one, until it is set again. Other
     /// joints have no motor.
     pub fn set_torque(&mut self, link: usize, torque: f64) {
-        let node = &self.nodes[link];
-        let about = match self.system.links()[link].joint.constraint {
-            super::super::JointConstraint::Revolute { axis } => {
-                let axis = self.beside[link].orientation.rotate(axis.into());
-                axis.dot(&self.plane.normal).signum()
-            }
-            super::super::JointConstraint::Prismatic { .. } => 1.0,
-            _ => return,
-        };
-        self.torques[node.column] = about * torque;
+        let Node { kind, column, sense, .. } = self.nodes[link];
+        if matches!(kind, Kind::Revolute | Kind::Prismatic) {
+            self.torques[column] = sense * torque;
+        }
     }
 
     /// Memories of the contact sites, in the system's order; anchors in the plane's axes.
