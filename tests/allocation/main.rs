@@ -6,6 +6,7 @@
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 use surefoot_sim::closed_loop::{Motors, Sensors};
+use surefoot_sim::mechanism::{MechanismModel, start_model};
 use surefoot_sim::multibody::Simulation;
 use surefoot_sim::plant::{Additions, Plant, Variational};
 use surefoot_sim::scene::{Acting, AnyScene, Block, Feet, Mechanism, Sensing, open};
@@ -45,6 +46,13 @@ fn no_step_allocates() {
         count("rates", || {
             simulation.column_rates().expect("rates");
         });
+    }
+    for (scene, model) in
+        [("hinged-chain", MechanismModel::Planar), ("box-drop", MechanismModel::SingleBody)]
+    {
+        let AnyScene::Mechanism(of) = open(scene).expect("built in") else { unreachable!() };
+        let mut smaller = start_model(&of, Some(model)).expect("a start").moving;
+        count(scene, || smaller.step().expect("a step"));
     }
     // Steps that have to be made in shorter ones.
     let mut large = simulation("box-drop", 2e-2);

@@ -1,20 +1,19 @@
 //! `surefoot count-steps`: what `chart parsimony` runs under callgrind.
 
 use super::{RUN_FAILED, bad_input};
-use crate::parsimony::Rung;
-use crate::scene::load;
-use clap::Parser;
+use crate::parsimony::{MechanismRung, PlayFailure, Played, Rung};
+use crate::scene::{AnyScene, open};
+use clap::{Parser, ValueEnum};
 use std::num::NonZeroUsize;
 use std::process::ExitCode;
 
 /// Options of `count-steps`.
 #[derive(Debug, Parser)]
 pub struct Options {
-    /// A robot's scene
+    /// A scene
     scene: String,
-    /// The model
-    #[arg(value_enum)]
-    rung: Rung,
+    /// The model: a robot's, or one of bodies and joints
+    rung: String,
     /// How many copies of it make every step
     copies: NonZeroUsize,
     /// Simulated seconds, instead of the scene's
@@ -24,19 +23,28 @@ pub struct Options {
 
 /// Plays the motion and says nothing.
 pub fn count_steps(options: &Options) -> ExitCode {
-    let scene = load(&options.scene).and_then(|mut scene| {
-        scene.duration_s = options.duration.unwrap_or(scene.duration_s);
-        scene.check().map(|()| scene)
-    });
-    let scene = match scene {
-        Ok(scene) => scene,
-        Err(error) => return bad_input(&error.to_string(), false),
-    };
-    match options.rung.play(&scene, options.copies) {
-        Ok(_) => ExitCode::SUCCESS,
-        Err(failure) => {
+    match play(options) {
+        Err(message) => bad_input(&message, false),
+        Ok(Ok(_)) => ExitCode::SUCCESS,
+        Ok(Err(failure)) => {
             eprintln!("failed: {failure}");
             ExitCode::from(RUN_FAILED)
+        }
+    }
+}
+
+fn play(options: &Options) -> Result<Result<Played, PlayFailure>, String> {
+    let duration_s = |of_scene: f64| options.duration.unwrap_or(of_scene);
+    match open(&options.scene).map_err(|error| error.to_string())? {
+        AnyScene::Robot(mut scene) => {
+            scene.duration_s = duration_s(scene.duration_s);
+            scene.check().map_err(|error| error.to_string())?;
+            Ok(Rung::from_str(&options.rung, false)?.play(&scene, options.copies))
+        }
+        AnyScene::Mechanism(mut scene) => {
+            scene.duration_s = duration_s(scene.duration_s);
+            scene.check().map_err(|error| error.to_string())?;
+            Ok(MechanismRung::from_str(&options.rung, false)?.play(&scene, options.copies))
         }
     }
 }

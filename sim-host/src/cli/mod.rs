@@ -8,6 +8,7 @@ mod chart;
 mod controller;
 mod count_steps;
 mod list;
+mod model;
 mod report;
 mod reproduce;
 mod run;

@@ -1,6 +1,7 @@
 //! `surefoot run`
 
 use super::controller::ControllerOptions;
+use super::model::ModelName;
 use super::report::{self, Report};
 use super::run_mechanism::run_mechanism;
 use super::{RUN_FAILED, bad_input, say};
@@ -10,7 +11,7 @@ use crate::integrators::Method;
 use crate::picture::Shown;
 use crate::record::{SavedRun, write_csv, write_mcap};
 use crate::report::page;
-use crate::scene::{AnyScene, Feet, ModelChoice, Scene, TorquesFrom, open};
+use crate::scene::{AnyScene, Feet, Scene, TorquesFrom, open};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
@@ -39,9 +40,9 @@ pub struct Options {
     /// When torques set in, instead of the scene's
     #[arg(long, value_enum)]
     torques_from: Option<TorquesFrom>,
-    /// How much of the robot is modelled, instead of what the scene says
+    /// How much is modelled, instead of what the scene says or bears
     #[arg(long, value_enum)]
-    model: Option<ModelChoice>,
+    pub(super) model: Option<ModelName>,
     /// Where the record and the charts go (default: out/SCENE)
     #[arg(long)]
     out: Option<PathBuf>,
@@ -80,7 +81,7 @@ impl Options {
 
     /// Whether something was said that a scene without a controller has no use for.
     pub(super) fn is_about_a_controller(&self) -> bool {
-        self.torques_from.is_some() || self.model.is_some() || self.controller.was_chosen()
+        self.torques_from.is_some() || self.controller.was_chosen()
     }
 }
 
@@ -154,7 +155,7 @@ fn with_options(mut scene: Scene, options: &Options) -> Result<Scene, String> {
         scene.controller.torques_from = from;
     }
     if let Some(model) = options.model {
-        scene.model = model;
+        scene.model = model.of_robot()?;
     }
     scene.check().map_err(|error| error.to_string())?;
     Ok(scene)

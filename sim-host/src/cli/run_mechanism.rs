@@ -1,10 +1,11 @@
 //! `surefoot run` of a mechanism that nobody controls.
 
+use super::model::ModelName;
 use super::report::SHOWN_EVENTS;
 use super::run::{Options, bar, created};
 use super::{RUN_FAILED, bad_input, say};
 use crate::chart::write_mechanism_chart;
-use crate::mechanism::{MechanismRun, run_from};
+use crate::mechanism::{ChosenModel, MechanismRun, run_model};
 use crate::record::write_mechanism_csv;
 use crate::scene::MechanismScene;
 use crate::stability::FailureKind;
@@ -23,8 +24,13 @@ pub(super) fn run_mechanism(scene: MechanismScene, options: &Options) -> ExitCod
         Ok(from) => from,
         Err(message) => return bad_input(&message, options.json),
     };
+    let wanted = match options.model.map_or(Ok(None), ModelName::of_mechanism) {
+        Ok(wanted) => wanted,
+        Err(message) => return bad_input(&message, options.json),
+    };
     let bar = bar(&scene.name, scene.duration_s);
-    let run = run_from(&scene, from.as_ref(), &mut |time| bar.set_position((time * 1e3) as u64));
+    let tell = &mut |time: f64| bar.set_position((time * 1e3) as u64);
+    let run = run_model(&scene, wanted, from.as_ref(), tell);
     bar.finish_and_clear();
     let run = match run {
         Ok(run) => run,
@@ -111,6 +117,9 @@ fn lines(out: &mut String, scene: &MechanismScene, run: &MechanismRun) -> std::f
         writeln!(out, "  {failure}")?;
         writeln!(out, "  advice: {}", advice(run))?;
     }
+    if let Some(ChosenModel { model, bodies, reason }) = &run.model {
+        writeln!(out, "  model: {model}, bodies: {bodies}; {reason}")?;
+    }
     let steps = run.progress.steps;
     let wall_s = run.wall.as_secs_f64();
     writeln!(
@@ -170,6 +179,7 @@ fn document(scene: &MechanismScene, run: &MechanismRun, files: &[PathBuf]) -> Va
         "step_s": scene.integrator.step_s,
         "duration_s": scene.duration_s,
         "scalar": "f64",
+        "model": run.model,
         "steps": run.progress.steps,
         "outcome": if run.failure.is_some() { "failed" } else { "completed" },
         "failure": failure,

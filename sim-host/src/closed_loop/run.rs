@@ -6,8 +6,9 @@ use super::memory::{memory, remember};
 use super::plant::plant;
 use super::{Commanded, Controller, Costs, CutTorques, Failure, Motors, Outcome, Sensors};
 use crate::integrators::Progress;
+use crate::multibody::SystemError;
 use crate::plant::{Plant, PlantState, StepFailure};
-use crate::record::{Event, Sample, SavedRun};
+use crate::record::{Event, Sample, SavedMotion, SavedRun};
 use crate::scene::{Scene, TorquesFrom};
 use nalgebra::Vector3;
 use std::time::{Duration, Instant};
@@ -130,6 +131,9 @@ fn advance(
     let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize);
     let mut first = 0;
     if let Some(SavedRun { torques_on, checkpoint, hardware, .. }) = from {
+        let SavedMotion::Tree(checkpoint) = checkpoint else {
+            return Err(step_failure(0.0, SystemError::OtherCheckpoint.into()));
+        };
         plant.restore(checkpoint).map_err(|failure| step_failure(0.0, failure))?;
         let made = plant.progress().map_or(0, |progress| progress.steps);
         if !made.is_multiple_of(steps_per_tick) {
@@ -161,7 +165,7 @@ fn advance(
             run.saved = plant.checkpoint().map(|checkpoint| SavedRun {
                 scene: scene.name.clone(),
                 torques_on: touched,
-                checkpoint: checkpoint.clone(),
+                checkpoint: SavedMotion::Tree(checkpoint.clone()),
                 hardware: memory,
             });
             break;

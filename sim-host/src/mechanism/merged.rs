@@ -3,91 +3,117 @@
 use super::moving::Moving;
 use crate::contact::ContactPoint;
 use crate::integrators::{Progress, StepError};
-use crate::multibody::{
-    BodyState, Checkpoint, JointConstraint, Reduced, Simulation, SystemError, merged,
-};
+use crate::multibody::{BodyState, JointConstraint, Reduced, Simulation, SystemError, merged};
+use crate::record::SavedMotion;
 
-/// A motion of merged links, told as that of all.
-struct Merged {
-    reduced: Reduced,
-    simulation: Simulation,
+/// Why links are not merged.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NotMerged {
+    /// There are none to merge.
+    #[error("no link is fixed to another")]
+    NothingFixed,
+    /// Events name contact points by their order.
+    #[error("merged links would change the order of the contact points")]
+    Order,
+    /// A start without velocities: the first step reports it.
+    #[error("the start has no velocities: {0}")]
+    Singular(crate::integrators::StepError),
 }
 
-/// The motion with links on fixed joints merged; as it is, if there are none. So is one whose contact points would
-/// change their order, by which events name them.
+/// A start of merged links.
+pub(super) struct MergedStart {
+    /// How the bodies carry those of the larger system, if any have been merged.
+    pub reduced: Option<Reduced>,
+    /// Of joints, held.
+    pub torques: Vec<f64>,
+    pub simulation: Simulation,
+}
+
+/// The motion with links on fixed joints merged.
 ///
 /// # Errors
-/// A [`SystemError`].
+/// A [`SystemError`]; inside, why there is nothing to merge.
 pub(super) fn without_fixed_joints(
-    mut whole: Simulation,
+    whole: &mut Simulation,
     torques: &[f64],
-) -> Result<Box<dyn Moving>, SystemError> {
+) -> Result<Result<MergedStart, NotMerged>, SystemError> {
     let is_fixed = |joint: &JointConstraint| *joint == JointConstraint::Fixed;
     let links = whole.system().links();
     if !links.iter().any(|l| l.inboard.is_some() && is_fixed(&l.joint.constraint)) {
-        return Ok(Box::new(whole));
+        return Ok(Err(NotMerged::NothingFixed));
     }
     let reduced = merged(whole.system())?;
     let carrier = |link: usize| reduced.carrier(link).map(|(link, _)| link);
     let sites = whole.system().sites();
     if !sites.is_sorted_by_key(|site| carrier(site.link)) {
-        return Ok(Box::new(whole));
+        return Ok(Err(NotMerged::Order));
     }
     let states = whole.states();
-    // A singular inertia is the first step's to report.
-    let Ok(rates) = whole.rates() else { return Ok(Box::new(whole)) };
+    let rates = match whole.rates() {
+        Ok(rates) => rates,
+        Err(error) => return Ok(Err(NotMerged::Singular(error))),
+    };
     let (states, rates) = reduced.start(&states, &rates);
     let h = whole.progress().h;
     let mut simulation = Simulation::new(reduced.system.clone(), h, &states, &rates)?;
+    let mut carried = vec![0.0; reduced.system.links().len()];
     for (link, torque) in torques.iter().enumerate() {
         // What drives a fixed joint does nothing.
         if !is_fixed(&whole.system().links()[link].joint.constraint)
             && let Some((link, _)) = reduced.carrier(link)
         {
             simulation.set_torque(link, *torque);
+            carried[link] = *torque;
         }
     }
-    Ok(Box::new(Merged { reduced, simulation }))
+    Ok(Ok(MergedStart { reduced: Some(reduced), torques: carried, simulation }))
+}
+
+/// A motion of merged links, told as that of all.
+pub(super) struct Merged {
+    pub reduced: Reduced,
+    pub moving: Box<dyn Moving>,
 }
 
 impl Moving for Merged {
     fn step(&mut self) -> Result<(), StepError> {
-        self.simulation.step()
+        self.moving.step()
     }
 
     fn state(&mut self) -> Result<(Vec<f64>, Vec<f64>), StepError> {
-        let rates = self.simulation.rates()?;
-        let all = self.reduced.expanded(&self.simulation.states(), &rates);
+        let (states, rates) = self.moving.state()?;
+        let bodies = |all: &[f64]| all.as_chunks().0.to_vec();
+        let all = self.reduced.expanded(&bodies(&states), &bodies(&rates));
         // Merging loses no body.
         let (states, rates): (Vec<BodyState>, Vec<BodyState>) = all.into_iter().flatten().unzip();
         Ok((states.concat(), rates.concat()))
     }
 
     fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError> {
-        self.simulation.conserved()
+        self.moving.conserved()
     }
 
     fn progress(&self) -> &Progress {
-        self.simulation.progress()
+        self.moving.progress()
     }
 
     fn forecast_s(&mut self) -> Option<f64> {
-        self.simulation.forecast_s()
+        self.moving.forecast_s()
     }
 
     fn unknowns(&self) -> usize {
-        self.simulation.unknowns()
+        self.moving.unknowns()
     }
 
     fn contacts(&self) -> &[ContactPoint] {
-        self.simulation.contacts()
+        self.moving.contacts()
     }
 
-    fn checkpoint(&self) -> Option<&Checkpoint> {
-        Some(self.simulation.checkpoint())
+    fn checkpoint(&self) -> Option<SavedMotion> {
+        self.moving.checkpoint()
     }
 
-    fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SystemError> {
-        self.simulation.restore(checkpoint)
+    fn restore(&mut self, from: &SavedMotion) -> Result<(), SystemError> {
+        self.moving.restore(from)
     }
 }

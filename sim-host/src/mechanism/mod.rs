@@ -1,10 +1,14 @@
 //! Runs of mechanisms that nobody controls (chapter 2), under any method.
 
 mod merged;
+mod model;
 mod moving;
 mod run;
+mod smaller;
 mod start;
 
+pub use merged::NotMerged;
+pub use model::{ChosenModel, MechanismModel, Started};
 pub use moving::Moving;
-pub use run::{MechanismRun, MechanismSample, run, run_from};
-pub use start::{StartFailure, start, start_bodies, start_within};
+pub use run::{MechanismRun, MechanismSample, run, run_from, run_model};
+pub use start::{StartFailure, start, start_bodies, start_model, start_within};

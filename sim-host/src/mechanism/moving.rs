@@ -3,7 +3,8 @@
 use crate::contact::ContactPoint;
 use crate::integrators::{Motion, Progress, StepError};
 use crate::mechanics::Lagrangian;
-use crate::multibody::{Checkpoint, Simulation, SystemError};
+use crate::multibody::{BodyState, Simulation, System, SystemError};
+use crate::record::SavedMotion;
 use num_dual::Dual64;
 use std::cell::LazyCell;
 
@@ -42,15 +43,15 @@ pub trait Moving {
     }
 
     /// All that is needed to go on from here, for motions that can be taken up again.
-    fn checkpoint(&self) -> Option<&Checkpoint> {
+    fn checkpoint(&self) -> Option<SavedMotion> {
         None
     }
 
-    /// Goes on from a checkpoint.
+    /// Goes on from where a motion was.
     ///
     /// # Errors
-    /// Where the checkpoint is of another motion, or the motion cannot be taken up again.
-    fn restore(&mut self, _: &Checkpoint) -> Result<(), SystemError> {
+    /// Where it is another motion or model, or the motion cannot be taken up again.
+    fn restore(&mut self, _: &SavedMotion) -> Result<(), SystemError> {
         Err(SystemError::OtherCheckpoint)
     }
 }
@@ -95,6 +96,27 @@ impl<S: Lagrangian<N, C>, const N: usize, const C: usize> Moving for Moved<S, N,
     }
 }
 
+/// Whether nothing holds the bodies from without: else nothing of their angular momentum is conserved that is not
+/// the pivot's affair.
+pub(super) fn is_free(system: &System) -> bool {
+    system.gravity() == 0.0
+        && system.ground().is_none()
+        && system.closures().iter().all(|closure| closure.inboard.is_some())
+        && system.links().iter().all(|l| l.inboard.is_some() || l.joint.constraints() == 0)
+}
+
+/// What [`Moving::conserved`] tells of bodies; their rates are asked for where these are free.
+pub(super) fn conserved(
+    system: &System,
+    (kinetic, potential): (f64, f64),
+    states: &[BodyState],
+    rates: &[BodyState],
+) -> (f64, Vec<f64>, f64) {
+    let momentum =
+        if is_free(system) { system.momentum(states, rates).1.to_vec() } else { Vec::new() };
+    (kinetic + potential, momentum, system.largest_constraint(states))
+}
+
 impl Moving for Simulation {
     fn step(&mut self) -> Result<(), StepError> {
         Self::step(self)
@@ -104,19 +126,10 @@ impl Moving for Simulation {
         Ok((self.states().concat(), self.rates()?.concat()))
     }
 
-    /// Of angular momentum, nothing is conserved that is not the pivot's affair, unless the chain floats
-    /// without gravity.
     fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError> {
-        let (states, rates) = (self.states(), self.rates()?);
-        let energy = self.energies().map(|(kinetic, potential)| kinetic + potential)?;
-        let system = self.system();
-        let is_free = system.gravity() == 0.0
-            && system.ground().is_none()
-            && system.closures().iter().all(|closure| closure.inboard.is_some())
-            && system.links().iter().all(|l| l.inboard.is_some() || l.joint.constraints() == 0);
-        let momentum =
-            if is_free { system.momentum(&states, &rates).1.to_vec() } else { Vec::new() };
-        Ok((energy, momentum, system.largest_constraint(&states)))
+        let energies = self.energies()?;
+        let rates = if is_free(self.system()) { self.rates()? } else { Vec::new() };
+        Ok(conserved(self.system(), energies, &self.states(), &rates))
     }
 
     fn progress(&self) -> &Progress {
@@ -136,11 +149,14 @@ impl Moving for Simulation {
         Self::contacts(self)
     }
 
-    fn checkpoint(&self) -> Option<&Checkpoint> {
-        Some(Self::checkpoint(self))
+    fn checkpoint(&self) -> Option<SavedMotion> {
+        Some(SavedMotion::Tree(Self::checkpoint(self).clone()))
     }
 
-    fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SystemError> {
-        Self::restore(self, checkpoint)
+    fn restore(&mut self, from: &SavedMotion) -> Result<(), SystemError> {
+        match from {
+            SavedMotion::Tree(checkpoint) => Self::restore(self, checkpoint),
+            _ => Err(SystemError::OtherCheckpoint),
+        }
     }
 }

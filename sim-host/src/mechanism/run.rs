@@ -1,7 +1,8 @@
 //! One run.
 
+use super::model::{ChosenModel, MechanismModel, Started};
 use super::moving::Moving;
-use super::start::{StartFailure, start};
+use super::start::{StartFailure, start_model};
 use crate::contact::{ContactPoint, ContactState};
 use crate::integrators::{Progress, StepError};
 use crate::record::{Event, EventKind, SavedRun};
@@ -38,6 +39,8 @@ pub struct MechanismRun {
     pub progress: Progress,
     /// Coordinates and constraints.
     pub unknowns: usize,
+    /// The model that it was played with, if there are several.
+    pub model: Option<ChosenModel>,
     /// The longest step foretold, s.
     pub forecast_s: Option<f64>,
     /// Touch-downs and lift-offs of contact points.
@@ -72,7 +75,20 @@ pub fn run_from(
     from: Option<&SavedRun>,
     at: &mut dyn FnMut(f64),
 ) -> Result<MechanismRun, StartFailure> {
-    let mut moving = start(scene)?;
+    run_model(scene, None, from, at)
+}
+
+/// The same with a model that is wanted, in place of the smallest.
+///
+/// # Errors
+/// A [`StartFailure`], also where the scene does not bear the model.
+pub fn run_model(
+    scene: &MechanismScene,
+    wanted: Option<MechanismModel>,
+    from: Option<&SavedRun>,
+    at: &mut dyn FnMut(f64),
+) -> Result<MechanismRun, StartFailure> {
+    let Started { mut moving, model } = start_model(scene, wanted)?;
     if let Some(saved) = from {
         moving.restore(&saved.checkpoint)?;
     }
@@ -86,6 +102,7 @@ pub fn run_from(
         constraint_max: 0.0,
         progress: *moving.progress(),
         unknowns: moving.unknowns(),
+        model,
         forecast_s: None,
         events: Vec::new(),
         saved: None,
@@ -122,7 +139,7 @@ pub fn run_from(
     run.saved = moving.checkpoint().map(|checkpoint| SavedRun {
         scene: scene.name.clone(),
         torques_on: false,
-        checkpoint: checkpoint.clone(),
+        checkpoint,
         hardware: None,
     });
     run.wall = begun.elapsed();

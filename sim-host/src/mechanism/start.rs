@@ -1,13 +1,14 @@
 //! From a scene to a mechanism on its way.
 
-use super::merged::without_fixed_joints;
+use super::merged::NotMerged;
+use super::model::{MechanismModel, Started, with_model};
 use super::moving::{Moved, Moving};
 use crate::integrators::{
     ADAPTIVE_TOLERANCE, DormandPrince, Method, StartError, start_free_body, start_natural,
 };
 use crate::mechanics::systems::{FreeRigidBody, Pendulum, PolarAngles};
 use crate::mechanics::{Chart, jacobian};
-use crate::multibody::{Chain, Simulation, SystemError};
+use crate::multibody::{Chain, NotPlanar, NotSingle, Simulation, SystemError};
 use crate::plant::StepFailure;
 use crate::scene::{BuildError, Link, Mechanism, MechanismScene};
 use crate::stability::{Course, foretell};
@@ -28,6 +29,18 @@ pub enum StartFailure {
     /// It is no state of the robot.
     #[error(transparent)]
     Robot(#[from] StepFailure),
+    /// It has no links to merge.
+    #[error("no merged model: {0}")]
+    NotMerged(#[from] NotMerged),
+    /// It does not stay in a plane.
+    #[error("no planar model: {0}")]
+    NotPlanar(#[from] NotPlanar),
+    /// It is no single free body.
+    #[error("no model of a single body: {0}")]
+    NotSingle(#[from] NotSingle),
+    /// It has no model to choose.
+    #[error("the mechanism has one model only")]
+    OneModel,
     /// It has no bodies and joints.
     #[error("the mechanism has no bodies and joints")]
     NoBodies,
@@ -84,17 +97,31 @@ pub fn start_within(
             // The scene's check allows no more.
             _ => pendulum::<4, 8, 12, 16>(scene, tolerance, *gravity_m_s2, links),
         },
-        Mechanism::Multibody(bodies) => {
-            let torques: Vec<f64> = bodies.bodies.iter().map(|body| body.torque).collect();
-            Ok(without_fixed_joints(
-                start_bodies(&scene.mechanism, scene.integrator.step_s)?,
-                &torques,
-            )?)
-        }
-        Mechanism::Biped(_) | Mechanism::Chain { .. } => {
-            Ok(Box::new(start_bodies(&scene.mechanism, scene.integrator.step_s)?))
+        Mechanism::Multibody(_) | Mechanism::Biped(_) | Mechanism::Chain { .. } => {
+            Ok(start_model(scene, None)?.moving)
         }
     }
+}
+
+/// Starts a scene with a model of its bodies and joints: the smallest that they bear, or the one that is wanted.
+///
+/// # Errors
+/// A [`StartFailure`], also where the scene does not bear the model, or is of a kind that has only one.
+pub fn start_model(
+    scene: &MechanismScene,
+    wanted: Option<MechanismModel>,
+) -> Result<Started, StartFailure> {
+    let torques: Vec<f64> = match &scene.mechanism {
+        Mechanism::RigidBody { .. } | Mechanism::Pendulum { .. } if wanted.is_some() => {
+            return Err(StartFailure::OneModel);
+        }
+        Mechanism::RigidBody { .. } | Mechanism::Pendulum { .. } => {
+            return Ok(Started { moving: start(scene)?, model: None });
+        }
+        Mechanism::Multibody(bodies) => bodies.bodies.iter().map(|body| body.torque).collect(),
+        Mechanism::Biped(_) | Mechanism::Chain { .. } => Vec::new(),
+    };
+    with_model(start_bodies(&scene.mechanism, scene.integrator.step_s)?, &torques, wanted)
 }
 
 /// Bodies and joints, in steps of `h`.

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! Body, Joint ─► System ─┬► merged, lumped ─► Reduced: a smaller system, and how its bodies carry the others
-//!                        ├► Simulation: joint coordinates, what every scene with bodies runs on
+//!                        ├► Simulation: joint coordinates, which play every scene with bodies
+//!                        ├► PlanarSimulation: the same of what stays in a plane; SingleBody: of one free body
 //!                        └► ConstrainedSimulation: as the text has it (5.11), (5.13), Alg. 5.1; the oracle
 //! ```
 #![doc = include_str!("../../../docs/your-own-bodies.md")]
@@ -14,9 +15,12 @@ mod constrained;
 mod gimbal;
 mod joint;
 mod joint_law;
+mod planar;
 mod recursive;
 mod reduction;
 mod robot;
+mod single_body;
+mod stepping;
 mod striker;
 mod system;
 mod system_error;
@@ -29,9 +33,11 @@ pub use constrained::{ConstrainedSimulation, Correction, Equations, SingularJoin
 pub use gimbal::Gimbal;
 pub use joint::{Joint, JointConstraint, MOST_CONSTRAINTS, Rows};
 pub use joint_law::{JointLaw, Stops};
+pub use planar::{NotPlanar, PlanarCheckpoint, PlanarError, PlanarSimulation, Plane};
 pub use recursive::{Checkpoint, Simulation, StepForecast};
 pub use reduction::{Frame, Reduced, Side, lumped, merged};
 pub use robot::{states_of_tree, system_of_tree};
+pub use single_body::{BodyCheckpoint, NotSingle, SingleBody, SingleBodyError};
 pub use striker::{BOX_POINTS, CORNERS, Striker};
 pub use system::{Link, Site, System};
 pub use system_error::SystemError;

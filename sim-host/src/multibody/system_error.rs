@@ -116,8 +116,8 @@ pub enum SystemError {
         /// What it would take.
         what: &'static str,
     },
-    /// A checkpoint of another system, or of another step.
-    #[error("the checkpoint belongs to another system, or to another step")]
+    /// A checkpoint of another system, model or step.
+    #[error("the checkpoint belongs to another system, to another model of it, or to another step")]
     OtherCheckpoint,
     /// The step is no time.
     #[error("a step of {h} s: a positive number is needed")]

@@ -1,9 +1,6 @@
 //! Instructions of steps, by callgrind on this program itself: what a run with two copies of a model executes
 //! more than one with one copy is that model's steps, and nothing else.
 
-use super::play::Rung;
-use crate::scene::Scene;
-use clap::ValueEnum;
 use std::path::Path;
 use std::process::Command;
 
@@ -18,27 +15,26 @@ pub enum CountFailure {
     NoCount(String),
 }
 
-/// Instructions of one step of a rung, the mean over the motion of `scene`, which can be opened by `name`.
+/// Instructions of one step, the mean over so many seconds of a motion: that of the scene which can be opened by
+/// `name`, on the rung of this name.
 ///
 /// # Errors
 /// A [`CountFailure`].
-pub fn count(name: &str, scene: &Scene, rung: Rung, steps: u64) -> Result<u64, CountFailure> {
-    let total = |copies: usize| total(name, scene.duration_s, rung, copies);
+pub fn count(name: &str, duration_s: f64, rung: &str, steps: u64) -> Result<u64, CountFailure> {
+    let total = |copies: usize| total(name, duration_s, rung, copies);
     let (one, two) = (total(1)?, total(2)?);
     Ok(two.saturating_sub(one) / steps.max(1))
 }
 
-fn total(name: &str, duration_s: f64, rung: Rung, copies: usize) -> Result<u64, CountFailure> {
+fn total(name: &str, duration_s: f64, rung: &str, copies: usize) -> Result<u64, CountFailure> {
     let program = std::env::current_exe().map_err(|error| no_count(&error))?;
-    let word = rung.to_possible_value().map(|value| value.get_name().to_owned());
-    let word = word.unwrap_or_default();
     let file = std::env::temp_dir()
-        .join(format!("surefoot-{}-{word}-{copies}.callgrind", std::process::id()));
+        .join(format!("surefoot-{}-{rung}-{copies}.callgrind", std::process::id()));
     let output = Command::new("valgrind")
         .args(["--quiet", "--tool=callgrind"])
         .arg(format!("--callgrind-out-file={}", file.display()))
         .arg(program)
-        .args(["count-steps", name, &word, &copies.to_string()])
+        .args(["count-steps", name, rung, &copies.to_string()])
         .args(["--duration", &duration_s.to_string()])
         .output()
         .map_err(CountFailure::NoValgrind)?;

@@ -3,6 +3,7 @@
 use super::callgrind::count;
 use super::play::{PlayFailure, Played, Rung};
 use crate::scene::{self, Scene};
+use clap::ValueEnum;
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::num::NonZeroUsize;
@@ -45,7 +46,7 @@ pub struct Ladder {
 /// Instructions are counted over this much of the motion, s: landing and the better part of the rise.
 const COUNTED_S: f64 = 0.6;
 /// Runs of which the quickest counts.
-const RUNS: usize = 3;
+pub(super) const RUNS: usize = 3;
 
 /// Plays all rungs of a scene, which can be opened by `name`; some ten to thirty seconds with valgrind.
 /// `progress` is told how many rungs are done.
@@ -83,7 +84,7 @@ pub fn climb(name: &str, scene: &Scene, progress: &(dyn Fn(usize) + Sync)) -> La
                     (row.deviation_m, row.deviation_rad) = (Some(m), Some(rad));
                 }
                 let steps = rung.play(&counted, NonZeroUsize::MIN).map_or(0, |short| short.steps);
-                match count(name, &counted, *rung, steps) {
+                match count(name, counted.duration_s, &word(*rung), steps) {
                     Ok(instructions) => row.instructions = Some(instructions),
                     Err(failure) => row.failure = Some(failure.to_string()),
                 }
@@ -103,8 +104,13 @@ fn quickest(rung: Rung, scene: &Scene) -> Result<Played, PlayFailure> {
     Ok(best)
 }
 
+/// The name of a rung on the command line.
+pub fn word(rung: impl ValueEnum) -> String {
+    rung.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+}
+
 /// Largest distance and angle between two paths.
-fn apart(a: &[[f64; 7]], b: &[[f64; 7]]) -> (f64, f64) {
+pub(super) fn apart(a: &[[f64; 7]], b: &[[f64; 7]]) -> (f64, f64) {
     let mut largest = (0.0_f64, 0.0_f64);
     for (a, b) in a.iter().zip(b) {
         let way = Vector3::new(a[0] - b[0], a[1] - b[1], a[2] - b[2]);

@@ -7,8 +7,10 @@
 
 mod callgrind;
 mod ladder;
+mod mechanism_ladder;
 mod play;
 
 pub use callgrind::{CountFailure, count};
-pub use ladder::{Ladder, Row, climb};
+pub use ladder::{Ladder, Row, climb, word};
+pub use mechanism_ladder::{MechanismLadder, MechanismRow, MechanismRung, climb_mechanism};
 pub use play::{PlayFailure, Played, Rung};

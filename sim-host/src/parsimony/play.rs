@@ -2,6 +2,7 @@
 
 use crate::closed_loop::{self, Scalar};
 use crate::integrators::{Progress, StepError};
+use crate::mechanism::StartFailure;
 use crate::multibody::{ConstrainedSimulation, Simulation, SystemError, lumped};
 use crate::plant::{BipedModel, Observation, Plant, PlantState, SMALL_BODIES, StepFailure};
 use crate::scene::{AnyScene, Feet, ModelChoice, Scene, SceneError, open};
@@ -33,7 +34,7 @@ pub enum Rung {
 /// A motion that was played.
 #[derive(Clone, Debug)]
 pub struct Played {
-    /// Position and quaternion of the central body at ticks; afloat, at steps.
+    /// Position and quaternion of the central body at ticks; afloat, at steps; of a mechanism, of all bodies.
     pub path: Vec<[f64; 7]>,
     /// Steps made by one copy.
     pub steps: u64,
@@ -58,6 +59,9 @@ pub enum PlayFailure {
     /// A step of the motion afloat could not be made.
     #[error(transparent)]
     Step(#[from] StepError),
+    /// The mechanism could not be started.
+    #[error(transparent)]
+    Start(#[from] StartFailure),
     /// The closed loop ended early.
     #[error("at {time_s} s: {place}")]
     Loop {
@@ -131,19 +135,25 @@ impl Rung {
             let one = ConstrainedSimulation::new(full.system().clone(), h, states, rates)?;
             let unknowns = one.unknowns();
             return fly(vec![one; copies], steps, unknowns, ConstrainedSimulation::step, |one| {
-                one.states()[0]
+                [one.states()[0]]
             });
         }
         if self == Self::FlightFull {
             let unknowns = full.unknowns();
-            return fly(vec![full; copies], steps, unknowns, Simulation::step, |one| one.state(0));
+            return fly(
+                vec![full; copies],
+                steps,
+                unknowns,
+                Simulation::step,
+                |one| [one.state(0)],
+            );
         }
         let reduced = lumped(full.system(), &SMALL_BODIES)?;
         let (states, rates) = reduced.start(&states, &rates);
         let one = Simulation::new(reduced.system.clone(), h, &states, &rates)?;
         let unknowns = one.unknowns();
         fly(vec![one; copies], steps, unknowns, Simulation::step, |one| {
-            reduced.state(0, &one.states()).unwrap_or_default()
+            [reduced.state(0, &one.states()).unwrap_or_default()]
         })
     }
 
@@ -171,19 +181,19 @@ impl Rung {
     }
 }
 
-fn fly<S>(
+pub(super) fn fly<S, P: IntoIterator<Item = [f64; 7]>>(
     mut copies: Vec<S>,
     steps: u64,
     unknowns: usize,
     step: impl Fn(&mut S) -> Result<(), StepError>,
-    central: impl Fn(&S) -> [f64; 7],
+    look: impl Fn(&S) -> P,
 ) -> Result<Played, PlayFailure> {
     let mut played = Played { path: Vec::new(), steps, unknowns, in_steps: Duration::ZERO };
     for _ in 0..steps {
         let begun = Instant::now();
         copies.iter_mut().try_for_each(&step)?;
         played.in_steps += begun.elapsed();
-        played.path.extend(copies.first().map(&central));
+        played.path.extend(copies.first().into_iter().flat_map(&look));
     }
     Ok(played)
 }

@@ -1,6 +1,6 @@
 //! A run that stopped, to be taken up again.
 
-use crate::multibody::Checkpoint;
+use crate::multibody::{BodyCheckpoint, Checkpoint, PlanarCheckpoint};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -13,10 +13,22 @@ pub struct SavedRun {
     /// Whether the controller's torques had set in; of no meaning without a controller.
     pub torques_on: bool,
     /// The motion.
-    pub checkpoint: Checkpoint,
+    pub checkpoint: SavedMotion,
     /// What a robot's sensors and motors remember; none where they are ideal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardware: Option<HardwareMemory>,
+}
+
+/// All that a motion needs to go on, by the simulator that plays it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SavedMotion {
+    /// Bodies and joints in space.
+    Tree(Checkpoint),
+    /// In a plane.
+    Planar(PlanarCheckpoint),
+    /// One free body.
+    Body(BodyCheckpoint),
 }
 
 /// What sensors and motors remember of earlier ticks.

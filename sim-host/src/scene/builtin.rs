@@ -12,7 +12,7 @@ pub struct BuiltIn {
 }
 
 /// All built-in scenes.
-pub const BUILT_IN: [BuiltIn; 12] = [
+pub const BUILT_IN: [BuiltIn; 13] = [
     BuiltIn { name: "experiment-1", text: include_str!("../../scenes/experiment-1.toml") },
     BuiltIn {
         name: "experiment-1-pushes",
@@ -31,6 +31,7 @@ pub const BUILT_IN: [BuiltIn; 12] = [
     BuiltIn { name: "biped-flight", text: include_str!("../../scenes/biped-flight.toml") },
     BuiltIn { name: "chain", text: include_str!("../../scenes/chain.toml") },
     BuiltIn { name: "four-bar", text: include_str!("../../scenes/four-bar.toml") },
+    BuiltIn { name: "hinged-chain", text: include_str!("../../scenes/hinged-chain.toml") },
     BuiltIn { name: "n-pendulum", text: include_str!("../../scenes/n-pendulum.toml") },
     BuiltIn { name: "rigid-body", text: include_str!("../../scenes/rigid-body.toml") },
     BuiltIn {

@@ -64,3 +64,29 @@ fn a_page_of_charts_is_whole() {
         assert!(text.contains(&format!("id=\"{anchor}\"")), "nothing is at #{anchor}");
     }
 }
+
+/// The ladder of bodies and joints: instructions, where valgrind counts them, fall at every rung, and no body is
+/// elsewhere.
+#[test]
+fn cost_falls_at_every_rung() {
+    let folder = folder("rungs");
+    let (status, stdout, stderr) =
+        said(&surefoot(&folder, &["chart", "parsimony", "--scene", "hinged-chain", "--json"]));
+    assert_eq!(status, Some(0), "{stderr}");
+    let document: Value = serde_json::from_str(&stdout).expect("one document");
+    let rows = document["ladder"]["rows"].as_array().expect("rows");
+    let names: Vec<_> = rows.iter().filter_map(|row| row["rung"].as_str()).collect();
+    assert_eq!(names, ["multipliers", "joint-coordinates", "merged", "planar"]);
+    assert!(rows.iter().all(|row| row["deviation_m"].as_f64().is_some_and(|m| m < 1e-10)));
+    let counts: Vec<u64> = rows.iter().filter_map(|row| row["instructions"].as_u64()).collect();
+    println!("{counts:?}");
+    if counts.is_empty() {
+        let failure = rows[0]["failure"].as_str().expect("the reason");
+        assert!(failure.contains("valgrind"), "{failure}");
+        return;
+    }
+    assert_eq!(counts.len(), rows.len());
+    assert!(counts.is_sorted_by(|dearer, cheaper| dearer > cheaper), "{counts:?}");
+    // In the plane a step takes less than half of what it takes in space.
+    assert!(2 * counts[3] < counts[2], "{counts:?}");
+}

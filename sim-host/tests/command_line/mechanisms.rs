@@ -34,6 +34,40 @@ fn mechanisms_run_and_say_what_they_keep() {
     }
 }
 
+/// Bodies and joints are played with the smallest model, or with the one that is asked for; what they do not bear
+/// is refused with the reason.
+#[test]
+fn models_of_mechanisms_are_told_and_chosen() {
+    let folder = folder("models");
+    for (arguments, model, bodies) in [
+        (vec!["hinged-chain"], "planar", 5),
+        (vec!["hinged-chain", "--model", "full"], "full", 10),
+        (vec!["hinged-chain", "--model", "merged"], "merged", 5),
+        (vec!["box-drop"], "single-body", 1),
+    ] {
+        let all = [&["run"], &arguments[..], &["--duration", "0.05", "--json"]].concat();
+        let (status, stdout, stderr) = said(&surefoot(&folder, &all));
+        assert_eq!(status, Some(0), "{arguments:?}: {stderr}");
+        let document: Value = serde_json::from_str(&stdout).expect("one document");
+        assert_eq!(document["model"]["model"], model, "{arguments:?}");
+        assert_eq!(document["model"]["bodies"], bodies, "{arguments:?}");
+    }
+    for (arguments, word) in [
+        (["chain", "--model", "planar"], "not parallel"),
+        (["chain", "--model", "lumped"], "planar or single-body"),
+        (["experiment-1", "--model", "planar"], "lumped"),
+        (["rigid-body", "--model", "full"], "one model only"),
+    ] {
+        let (status, _, stderr) = said(&surefoot(&folder, &[&["run"], &arguments[..]].concat()));
+        assert_eq!(status, Some(2), "{arguments:?}");
+        assert!(stderr.contains(word), "{arguments:?}: {stderr}");
+    }
+    let (status, stdout, _) =
+        said(&surefoot(&folder, &["run", "hinged-chain", "--duration", "0.05"]));
+    assert_eq!(status, Some(0));
+    assert!(stdout.contains("model: planar, bodies: 5; the motion stays in the plane"), "{stdout}");
+}
+
 /// A step that is too long is a typed failure with a step that works; what does not go together is
 /// refused.
 #[test]

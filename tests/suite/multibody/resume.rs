@@ -20,7 +20,7 @@ fn written_and_read(saved: Option<SavedRun>, name: &str) -> SavedRun {
 
 #[test]
 fn mechanisms_go_on_to_the_same_bits() {
-    for name in ["box-drop", "four-bar", "biped-flight", "chain"] {
+    for name in ["box-drop", "four-bar", "biped-flight", "chain", "hinged-chain"] {
         let AnyScene::Mechanism(mut scene) = open(name).expect("built in") else { unreachable!() };
         scene.duration_s = 1.0;
         let whole = mechanism::run(&scene, &mut |_| {}).expect("a run");

@@ -1,5 +1,6 @@
 //! `surefoot chart`
 
+mod ladder_table;
 mod limits;
 mod limits_table;
 mod map_picture;
@@ -24,8 +25,8 @@ pub struct Options {
     /// What to chart
     #[arg(value_enum)]
     what: What,
-    /// A robot's scene, built in or a TOML file: of stability, the limits of its control loop, in place of
-    /// methods' steps; of parsimony, the motion (default: experiment-1)
+    /// A scene, built in or a TOML file: of stability, a robot's, for the limits of its control loop in place of
+    /// methods' steps; of parsimony, the motion (default: experiment-1, hinged-chain and box-drop)
     #[arg(long)]
     scene: Option<String>,
     /// Of stability, with `--scene`: only this limit; may be given more than once

@@ -15,7 +15,7 @@ mod end;
 mod forecast;
 mod loops;
 mod motors;
-mod newton;
+pub(super) mod newton;
 mod node;
 mod rates;
 mod simulation;

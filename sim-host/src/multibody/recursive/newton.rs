@@ -8,22 +8,22 @@ use crate::integrators::{Progress, StepError, StepFailure};
 use crate::newton::NewtonFailure;
 
 /// Newton steps at most.
-const MOST_ITERATIONS: u32 = 40;
+pub(in crate::multibody) const MOST_ITERATIONS: u32 = 40;
 /// Halvings of a Newton step at most.
-const MOST_HALVINGS: u32 = 12;
+pub(in crate::multibody) const MOST_HALVINGS: u32 = 12;
 /// Residuals, relative to their terms, that count as a root once they fall no further.
-const TOLERANCE: f64 = 1e-10;
+pub(in crate::multibody) const TOLERANCE: f64 = 1e-10;
 /// Residuals that count as a root at once.
-const ROUND_OFF: f64 = 2e-15;
+pub(in crate::multibody) const ROUND_OFF: f64 = 2e-15;
 /// While residuals fall by this in an iteration, the elimination is used again.
-const FAST: f64 = 1e-2;
+pub(in crate::multibody) const FAST: f64 = 1e-2;
 /// Cosine of half the angle by which a body may turn in a step: beyond a quarter turn (2.51) folds.
-const LEAST_TURN: f64 = std::f64::consts::FRAC_1_SQRT_2;
+pub(in crate::multibody) const LEAST_TURN: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Steps that may be made in shorter ones: so many, and one of so many.
-const FREE_SPLITS: u64 = 10;
-const STEPS_PER_SPLIT: u64 = 100;
+pub(in crate::multibody) const FREE_SPLITS: u64 = 10;
+pub(in crate::multibody) const STEPS_PER_SPLIT: u64 = 100;
 /// A step that fails is made in 2, 4, … up to 2 to this power.
-const MOST_SPLITS: u32 = 6;
+pub(in crate::multibody) const MOST_SPLITS: u32 = 6;
 
 impl Simulation {
     /// One step. Where its equations have no solution nearby it is made in 2, 4, … 64 shorter ones, which
