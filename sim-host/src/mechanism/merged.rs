@@ -13,8 +13,8 @@ struct Merged {
     simulation: Simulation,
 }
 
-/// The motion with links on fixed joints merged; as it is, if there are none. So is one whose contact points would
-/// change their order, by which events name them.
+/// The motion with links on fixed joints merged; as it is, if there are none, or no others. So is one whose contact
+/// points would change their order, by which events name them.
 ///
 /// # Errors
 /// A [`SystemError`].
@@ -23,12 +23,14 @@ pub(super) fn without_fixed_joints(
     torques: &[f64],
 ) -> Result<Box<dyn Moving>, SystemError> {
     let is_fixed = |joint: &JointConstraint| *joint == JointConstraint::Fixed;
-    let links = whole.system().links();
-    if !links.iter().any(|l| l.inboard.is_some() && is_fixed(&l.joint.constraint)) {
+    if !whole.system().links().iter().any(|l| is_fixed(&l.joint.constraint)) {
         return Ok(Box::new(whole));
     }
     let reduced = merged(whole.system())?;
-    let carrier = |link: usize| reduced.carrier(link).map(|(link, _)| link);
+    if reduced.system.links().is_empty() {
+        return Ok(Box::new(whole));
+    }
+    let carrier = |link: usize| reduced.carrier(link).and_then(|(link, _)| link);
     let sites = whole.system().sites();
     if !sites.is_sorted_by_key(|site| carrier(site.link)) {
         return Ok(Box::new(whole));
@@ -42,7 +44,7 @@ pub(super) fn without_fixed_joints(
     for (link, torque) in torques.iter().enumerate() {
         // What drives a fixed joint does nothing.
         if !is_fixed(&whole.system().links()[link].joint.constraint)
-            && let Some((link, _)) = reduced.carrier(link)
+            && let Some((Some(link), _)) = reduced.carrier(link)
         {
             simulation.set_torque(link, *torque);
         }
@@ -64,7 +66,8 @@ impl Moving for Merged {
     }
 
     fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError> {
-        self.simulation.conserved()
+        let (energy, momentum, constraint) = self.simulation.conserved()?;
+        Ok((energy + self.reduced.still_energy(), momentum, constraint))
     }
 
     fn progress(&self) -> &Progress {

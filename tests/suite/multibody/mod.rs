@@ -8,6 +8,7 @@ mod merged;
 mod motion;
 mod oracle;
 mod reference;
+mod rerooted;
 mod resume;
 mod solver;
 mod strikes;

@@ -8,9 +8,9 @@
 use super::bond::Bond;
 use super::end::End;
 use super::node::{Kind, Node, Place};
-use super::stiffness::{Column, Pair, Stiffness};
+use super::stiffness::{Column, Pair, Stiffness, skew_times, times_skew};
 use super::trial::{Touch, Trial};
-use super::turn::skew;
+use super::turn::{Turn, skew};
 use nalgebra::{Matrix3, Vector3};
 
 /// The eliminated equations.
@@ -29,6 +29,7 @@ pub(super) struct Elimination {
     bonds: Vec<Option<Bond>>,
 }
 
+/// Axes and arms at a step's beginning and at a trial's end.
 #[derive(Clone, Copy, Debug)]
 struct Geometry {
     axes: [[Vector3<f64>; 3]; 2],
@@ -98,9 +99,13 @@ impl Elimination {
         h: f64,
     ) -> Result<(), usize> {
         let (node, place, end) = (&nodes[k], &places[k], &trial.ends[k]);
+        let (turn_i, moved_i) = match node.inboard {
+            Some(i) => (trial.ends[i].turn, trial.ends[i].displacement),
+            None => (Turn::NONE, Vector3::zeros()),
+        };
         let geometry = Geometry {
-            axes: [place.axes, end.axes],
-            from_inboard: [place.from_inboard, end.from_inboard],
+            axes: [place.axes, node.axes_at_end(place, &turn_i, &end.turn)],
+            from_inboard: [place.from_inboard, place.from_inboard + end.displacement - moved_i],
         };
         self.geometry[k] = geometry;
         let part = &mut self.stiffness[k];
@@ -196,25 +201,33 @@ impl Elimination {
         let mut z = on_body;
         z.linear += self.impulses[k].linear;
         z.angular += self.impulses[k].angular;
-        let axes = &self.geometry[k].axes[0];
+        let Geometry { axes: [axes, _], from_inboard: [arm, _] } = &self.geometry[k];
         let first = node.columns.start;
-        for c in node.columns.clone() {
-            let along = match (node.kind, c - first) {
-                (Kind::Prismatic, i) => axes[i].dot(&z.linear),
-                (Kind::Floating, i @ 0..3) => z.linear[i],
-                (Kind::Floating, i) => z.angular[i - 3],
-                (_, i) => axes[i].dot(&z.angular),
-            };
-            let left = along - own(c);
-            self.left[c] = left;
-            let column = &self.columns[c];
+        let columns = &self.columns[node.columns.clone()];
+        let all_left = &mut self.left[node.columns.clone()];
+        let mut take = |i: usize, along: f64, z: &mut Pair| {
+            let (left, column) = (along - own(first + i), &columns[i]);
+            all_left[i] = left;
             let share = left * column.inverse;
             z.linear -= column.impulse.linear * share;
             z.angular -= column.impulse.angular * share;
+        };
+        match node.kind {
+            Kind::Fixed => {}
+            Kind::Revolute => take(0, axes[0].dot(&z.angular), &mut z),
+            Kind::Prismatic => take(0, axes[0].dot(&z.linear), &mut z),
+            Kind::Universal => {
+                take(0, axes[0].dot(&z.angular), &mut z);
+                take(1, axes[1].dot(&z.angular), &mut z);
+            }
+            Kind::Spherical => (0..3).for_each(|i| take(i, z.angular[i], &mut z)),
+            Kind::Floating => {
+                (0..3).for_each(|i| take(i, z.linear[i], &mut z));
+                (0..3).for_each(|i| take(3 + i, z.angular[i], &mut z));
+            }
         }
         if let Some(inboard) = node.inboard {
-            let arm = self.geometry[k].from_inboard[0];
-            self.impulses[inboard].add_shifted(&z, &arm);
+            self.impulses[inboard].add_shifted(&z, arm);
         }
     }
 
@@ -222,24 +235,37 @@ impl Elimination {
     #[inline(always)]
     fn distribute(&mut self, k: usize, nodes: &[Node], corrections: &mut [f64]) {
         let node = &nodes[k];
-        let Geometry { axes, from_inboard } = &self.geometry[k];
+        let Geometry { axes: [_, axes], from_inboard: [_, arm] } = &self.geometry[k];
         let mut motion = match node.inboard {
             None => Pair::ZERO,
             Some(i) => {
                 let Pair { linear, angular } = self.motions[i];
-                Pair { linear: linear + angular.cross(&from_inboard[1]), angular }
+                Pair { linear: linear + angular.cross(arm), angular }
             }
         };
-        let first = node.columns.start;
-        for c in node.columns.clone().rev() {
-            let column = &self.columns[c];
-            let by = -(self.left[c] + column.answer.dot(&motion)) * column.inverse;
-            corrections[c] = by;
-            match (node.kind, c - first) {
-                (Kind::Prismatic, i) => motion.linear += axes[1][i] * by,
-                (Kind::Floating, i @ 0..3) => motion.linear[i] += by,
-                (Kind::Floating, i) => motion.angular[i - 3] += by,
-                (_, i) => motion.angular += axes[1][i] * by,
+        let columns = &self.columns[node.columns.clone()];
+        let left = &self.left[node.columns.clone()];
+        let corrections = &mut corrections[node.columns.clone()];
+        let mut give = |i: usize, motion: &Pair| {
+            let column = &columns[i];
+            let by = -(left[i] + column.answer.dot(motion)) * column.inverse;
+            corrections[i] = by;
+            by
+        };
+        match node.kind {
+            Kind::Fixed => {}
+            Kind::Revolute => motion.angular += axes[0] * give(0, &motion),
+            Kind::Prismatic => motion.linear += axes[0] * give(0, &motion),
+            Kind::Universal => {
+                motion.angular += axes[1] * give(1, &motion);
+                motion.angular += axes[0] * give(0, &motion);
+            }
+            Kind::Spherical => {
+                (0..3).rev().for_each(|i| motion.angular += axes[i] * give(i, &motion));
+            }
+            Kind::Floating => {
+                (0..3).rev().for_each(|i| motion.angular[i] += give(3 + i, &motion));
+                (0..3).rev().for_each(|i| motion.linear[i] += give(i, &motion));
             }
         }
         self.motions[k] = motion;
@@ -257,10 +283,8 @@ fn add_own(part: &mut Stiffness, node: &Node, place: &Place, end: &End, touches:
     // With the end turned by δφ more: δ(c, v) = ½ (−v·δφ, N δφ), N = c 1 − v̂, so that
     // ∂L/∂φ = 1/h [(c I − (I v)^ + v̂ I) N − (I v) vᵀ].
     let (c, v, iv) = (end.turn.c, &end.turn.v, &end.inertia_turn);
-    let v_hat = skew(v);
-    let left = place.inertia * c - skew(iv) + v_hat * place.inertia;
-    let n = Matrix3::from_diagonal_element(c) - v_hat;
-    let turning = (left * n - iv * v.transpose()) / h;
+    let left = place.inertia * c - skew(iv) + skew_times(v, &place.inertia);
+    let turning = (left * c - times_skew(&left, v) - iv * v.transpose()) / h;
     part.add_body(node.mass / h, &turning, &place.to_center, &end.to_center);
     for touch in &touches[node.sites.clone()] {
         if touch.force.slope != Matrix3::zeros() {

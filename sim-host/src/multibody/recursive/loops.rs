@@ -29,6 +29,8 @@ pub(super) struct Loops {
     /// Pivots in their order, rows and columns; those that are none are left out.
     pivots: Vec<(usize, usize)>,
     columns: usize,
+    /// Impulses of closing joints' motors at a step's beginning, by body.
+    driven: Vec<(usize, Pair)>,
 }
 
 /// One constraint: its bodies, its derivative at the beginning and at the end, and its error there.
@@ -40,6 +42,8 @@ struct Row {
     error: f64,
 }
 
+/// Error of a constraint that its evaluation makes: some ten terms of the size of a machine, m.
+const ROUND_OFF: f64 = 2e-15;
 /// Pivots that are no more than round-off beside the first: constraints that say what others say already.
 const DEPENDENT: f64 = 1e-9;
 
@@ -60,6 +64,7 @@ impl Loops {
             schur: vec![0.0; n * n],
             pivots: Vec::with_capacity(n),
             columns,
+            driven: Vec::with_capacity(2 * system.closing_motors().len()),
         }
     }
 
@@ -75,6 +80,12 @@ impl Loops {
             (body_state(&place.center, place.orientation.to_array()), place.to_center)
         };
         self.each(closures, state, |row, pairs, _| row.begin = pairs);
+    }
+
+    /// Impulses of closing joints' motors at the beginning of a step.
+    pub fn drive(&mut self, impulses: impl Iterator<Item = (usize, Pair)>) {
+        self.driven.clear();
+        self.driven.extend(impulses);
     }
 
     /// Rows and errors at a trial's end.
@@ -115,23 +126,24 @@ impl Loops {
     }
 
     /// The bodies that constraints act on, each once for each constraint, with the impulse
-    /// there at the beginning: `G⁻ᵀ λ`.
+    /// there at the beginning: `G⁻ᵀ λ`, and that of motors.
     pub fn impulses<'a>(
         &'a self,
         multipliers: &'a [f64],
     ) -> impl Iterator<Item = (usize, Pair)> + 'a {
-        self.rows.iter().zip(multipliers).flat_map(|(row, m)| {
+        let held = self.rows.iter().zip(multipliers).flat_map(|(row, m)| {
             row.bodies.iter().zip(&row.begin).filter_map(move |(body, pair)| {
                 let scaled = Pair { linear: pair.linear * *m, angular: pair.angular * *m };
                 body.map(|k| (k, scaled))
             })
-        })
+        });
+        held.chain(self.driven.iter().copied())
     }
 
-    /// Largest error of a constraint.
+    /// Largest error of a constraint, beyond that of rounding.
     pub fn largest_error(&self) -> f64 {
         self.rows.iter().fold(0.0, |m, row| {
-            let e = row.error.abs();
+            let e = row.error.abs() - ROUND_OFF;
             if e > m || e.is_nan() { e } else { m }
         })
     }

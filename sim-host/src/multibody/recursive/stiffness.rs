@@ -3,6 +3,7 @@
 
 use super::turn::skew;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use serde::{Deserialize, Serialize};
 
 /// Change of impulse and moment of impulse for a change of place and of orientation at the step's end.
 /// The arm of the moment is that of the beginning, the arm of the motion that of the end, so that the
@@ -16,7 +17,7 @@ pub(super) struct Stiffness {
 }
 
 /// Force and moment; or place and turn.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Pair {
     pub linear: Vector3<f64>,
     pub angular: Vector3<f64>,
@@ -136,12 +137,11 @@ impl Stiffness {
     /// A point's own, at the end of these arms.
     #[inline]
     pub fn add_point(&mut self, k: &Matrix3<f64>, begin: &Vector3<f64>, end: &Vector3<f64>) {
-        let by_turn = k * skew(end);
+        let by_turn = times_skew(k, end);
         self.force_by_place += k;
         self.force_by_turn -= by_turn;
-        let b = skew(begin);
-        self.moment_by_place += b * k;
-        self.moment_by_turn -= b * by_turn;
+        self.moment_by_place += skew_times(begin, k);
+        self.moment_by_turn -= skew_times(begin, &by_turn);
     }
 
     /// Another part's, whose point lies at the end of these arms.
@@ -216,14 +216,14 @@ fn subtract_outer(m: &mut Matrix3<f64>, a: &Vector3<f64>, b: &Vector3<f64>) {
 
 /// `m r̂`: its rows are those of `m`, each × `r`.
 #[inline]
-fn times_skew(m: &Matrix3<f64>, r: &Vector3<f64>) -> Matrix3<f64> {
+pub(super) fn times_skew(m: &Matrix3<f64>, r: &Vector3<f64>) -> Matrix3<f64> {
     let [x, y, z] = [m.column(0), m.column(1), m.column(2)];
     Matrix3::from_columns(&[y * r.z - z * r.y, z * r.x - x * r.z, x * r.y - y * r.x])
 }
 
 /// `r̂ m`: its columns are `r ×` those of `m`.
 #[inline]
-fn skew_times(r: &Vector3<f64>, m: &Matrix3<f64>) -> Matrix3<f64> {
+pub(super) fn skew_times(r: &Vector3<f64>, m: &Matrix3<f64>) -> Matrix3<f64> {
     let column = |j: usize| r.cross(&m.column(j).into_owned());
     Matrix3::from_columns(&[column(0), column(1), column(2)])
 }
