@@ -212,7 +212,7 @@ impl Rows {
 }
 
 /// Two unit vectors at right angles to an axis and to each other.
-fn across([x, y, z]: &[f64; 3]) -> [[f64; 3]; 2] {
+pub(super) fn across([x, y, z]: &[f64; 3]) -> [[f64; 3]; 2] {
     // Duff et al. 2017, "Building an orthonormal basis, revisited".
     let sign = 1.0_f64.copysign(*z);
     let a = -1.0 / (sign + z);

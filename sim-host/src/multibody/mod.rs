@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! Body, Joint ─► System ─┬► merged, lumped ─► Reduced: a smaller system, and how its bodies carry the others
+//!                        ├► rerooted ─► Rerooted: the same bodies, hanging from those that the world holds
 //!                        ├► Simulation: joint coordinates, what every scene with bodies runs on
 //!                        └► ConstrainedSimulation: as the text has it (5.11), (5.13), Alg. 5.1; the oracle
 //! ```

@@ -8,7 +8,9 @@
 mod callgrind;
 mod ladder;
 mod play;
+mod saving;
 
 pub use callgrind::{CountFailure, count};
 pub use ladder::{Ladder, Row, climb};
 pub use play::{PlayFailure, Played, Rung};
+pub use saving::Saving;

@@ -99,7 +99,7 @@ impl Plant for Afloat {
         positions[3..7].copy_from_slice(&turned.to_array());
         velocities[..3].copy_from_slice(twist[0].as_slice());
         velocities[3..6].copy_from_slice(twist[1].as_slice());
-        velocities[6..].copy_from_slice(&rates[6..]);
+        velocities[6..].copy_from_slice(&rates[6..18]);
         let mut next = 7;
         for (joint, motors) in &self.joints {
             positions[next..next + motors].copy_from_slice(&self.motion.angles(*joint)[..*motors]);
@@ -212,13 +212,17 @@ fn still_feet_are_welded_feet() {
             ];
             apart = std::array::from_fn(|i| apart[i].max(found[i]));
         }
+        let iterations = [new.progress(), old.progress()]
+            .map(|progress| progress.expect("implicit").mean_iterations());
         println!(
             "{name}, {model}: positions, velocities, torques, foot forces, energies, block {}; \
              iterations {:.2} and {:.2}",
             told(&apart),
-            new.progress().expect("implicit").mean_iterations(),
-            old.progress().expect("implicit").mean_iterations()
+            iterations[0],
+            iterations[1]
         );
+        // A smooth motion is foretold so well that one is enough; a block is not.
+        assert!(block.is_some() || iterations.iter().all(|mean| *mean < 1.1), "{iterations:?}");
         assert!(apart[0] < 1e-9 && apart[5] < 1e-9, "{apart:?}");
         assert!(apart[1] < 1e-8 && apart[2] < 1e-6 && apart[3] < 1e-5 && apart[4] < 1e-8);
     }

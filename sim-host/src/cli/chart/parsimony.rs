@@ -3,7 +3,7 @@
 use super::super::{bad_input, say};
 use super::Options;
 use crate::chart::{Bar, Bars};
-use crate::parsimony::{Ladder, Row, Rung, climb};
+use crate::parsimony::{Ladder, Row, Rung, Saving, climb};
 use crate::scene::load;
 use clap::ValueEnum;
 use indicatif::ProgressBar;
@@ -77,12 +77,28 @@ fn text(ladder: &Ladder) -> String {
     for failure in failures {
         let _ = writeln!(out, "{failure}");
     }
+    for saving in &ladder.savings {
+        let _ = writeln!(out, "\n{}", sentence(saving));
+    }
     let _ = writeln!(
         out,
         "\n`surefoot run` takes the {} model: {}.",
         ladder.chosen.model, ladder.chosen.reason
     );
     out
+}
+
+/// What lumping saves, and why no more.
+fn sentence(saving: &Saving) -> String {
+    let Saving { full, lumped, share, bodies, each, common, each_for_half } = *saving;
+    format!(
+        "{} takes {:.0} % of {}: {bodies} bodies go, at {each:.0} instructions each. {common:.0} are for what both \
+         have (velocities,\ncontact points, constraints, the step itself), whatever bodies cost; for half, a body \
+         would have to take {each_for_half:.0}.",
+        word(lumped),
+        100.0 * share,
+        word(full),
+    )
 }
 
 fn write_files(folder: &Path, ladder: &Ladder) -> Result<Vec<PathBuf>, String> {

@@ -36,9 +36,6 @@ struct Geometry {
     from_inboard: [Vector3<f64>; 2],
 }
 
-const UNITS: [Vector3<f64>; 3] =
-    [Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 1.0, 0.0), Vector3::new(0.0, 0.0, 1.0)];
-
 impl Elimination {
     pub fn new(nodes: usize, columns: usize, strikers: usize) -> Self {
         let nothing = [Vector3::zeros(); 3];
@@ -67,15 +64,16 @@ impl Elimination {
         trial: &Trial,
         h: f64,
     ) -> Result<(), usize> {
-        self.stiffness.fill(Stiffness::ZERO);
+        for (k, part) in self.stiffness.iter_mut().enumerate() {
+            *part = own_stiffness(&nodes[k], &places[k], &trial.ends[k], &trial.touches, h);
+        }
         for (number, strike) in trial.strikes.iter().enumerate() {
             let k = strike.link;
             self.bonds[number] = None;
             match strike.stiffness(h) {
-                None => self.factor_node(k, nodes, places, trial, h)?,
+                None => self.factor_node(k, nodes, places, trial)?,
                 Some(contact) => {
-                    let part = &mut self.stiffness[k];
-                    add_own(part, &nodes[k], &places[k], &trial.ends[k], &trial.touches, h);
+                    let part = &self.stiffness[k];
                     let arms = strike.arms(places, &trial.ends);
                     let (bond, passed) = Bond::new(strike.struck, arms, part, &contact).ok_or(k)?;
                     self.stiffness[bond.to].add_shifted(&passed, &arms[0], &arms[1]);
@@ -84,7 +82,7 @@ impl Elimination {
             }
         }
         for k in (0..nodes.len() - trial.strikes.len()).rev() {
-            self.factor_node(k, nodes, places, trial, h)?;
+            self.factor_node(k, nodes, places, trial)?;
         }
         Ok(())
     }
@@ -96,7 +94,6 @@ impl Elimination {
         nodes: &[Node],
         places: &[Place],
         trial: &Trial,
-        h: f64,
     ) -> Result<(), usize> {
         let (node, place, end) = (&nodes[k], &places[k], &trial.ends[k]);
         let (turn_i, moved_i) = match node.inboard {
@@ -109,7 +106,6 @@ impl Elimination {
         };
         self.geometry[k] = geometry;
         let part = &mut self.stiffness[k];
-        add_own(part, node, place, end, &trial.touches, h);
         let first = node.columns.start;
         let slopes = &trial.own_slopes[node.columns.clone()];
         let mut keep = |c: usize, column: Option<Column>| match column {
@@ -134,15 +130,12 @@ impl Elimination {
             }
             Kind::Spherical => {
                 for i in 0..3 {
-                    keep(i, part.eliminate_turn(&UNITS[i], &end[i], 0.0))?;
+                    keep(i, part.eliminate_ball_turn(i, &end[i]))?;
                 }
             }
             Kind::Floating => {
-                for i in 0..3 {
-                    keep(i, part.eliminate_shift(&UNITS[i], &UNITS[i], 0.0))?;
-                }
-                for i in 0..3 {
-                    keep(3 + i, part.eliminate_turn(&UNITS[i], &UNITS[i], 0.0))?;
+                for i in 0..6 {
+                    keep(i, part.eliminate_free(i))?;
                 }
             }
         }
@@ -163,21 +156,23 @@ impl Elimination {
         own: impl Fn(usize) -> f64,
         corrections: &mut [f64],
     ) {
-        self.impulses.fill(Pair::ZERO);
+        for (k, z) in self.impulses.iter_mut().enumerate() {
+            *z = impulse(k);
+        }
         let tree = nodes.len() - self.bonds.len();
         for k in tree..nodes.len() {
             let Some(bond) = &self.bonds[k - tree] else {
-                self.collect(k, nodes, impulse(k), &own);
+                self.collect(k, nodes, &own);
                 continue;
             };
-            let mut z = impulse(k);
+            let mut z = self.impulses[k];
             let first = nodes[k].columns.start;
             z.subtract(&Pair::of_columns(|c| own(first + c)));
             self.impulses[bond.to].add_shifted(&bond.passed(&z), &bond.arms[0]);
             self.impulses[k] = z;
         }
         for k in (0..tree).rev() {
-            self.collect(k, nodes, impulse(k), &own);
+            self.collect(k, nodes, &own);
         }
         for k in 0..tree {
             self.distribute(k, nodes, corrections);
@@ -196,11 +191,9 @@ impl Elimination {
 
     /// Takes the impulse on a node, with what is outboard, to its columns, and hands the rest inboard.
     #[inline(always)]
-    fn collect(&mut self, k: usize, nodes: &[Node], on_body: Pair, own: &impl Fn(usize) -> f64) {
+    fn collect(&mut self, k: usize, nodes: &[Node], own: &impl Fn(usize) -> f64) {
         let node = &nodes[k];
-        let mut z = on_body;
-        z.linear += self.impulses[k].linear;
-        z.angular += self.impulses[k].angular;
+        let mut z = self.impulses[k];
         let Geometry { axes: [axes, _], from_inboard: [arm, _] } = &self.geometry[k];
         let first = node.columns.start;
         let columns = &self.columns[node.columns.clone()];
@@ -279,17 +272,18 @@ impl Elimination {
 
 /// A body's own stiffness, and that of the floor under it.
 #[inline(always)]
-fn add_own(part: &mut Stiffness, node: &Node, place: &Place, end: &End, touches: &[Touch], h: f64) {
+fn own_stiffness(node: &Node, place: &Place, end: &End, touches: &[Touch], h: f64) -> Stiffness {
     // With the end turned by δφ more: δ(c, v) = ½ (−v·δφ, N δφ), N = c 1 − v̂, so that
     // ∂L/∂φ = 1/h [(c I − (I v)^ + v̂ I) N − (I v) vᵀ].
     let (c, v, iv) = (end.turn.c, &end.turn.v, &end.inertia_turn);
     let left = place.inertia * c - skew(iv) + skew_times(v, &place.inertia);
     let turning = (left * c - times_skew(&left, v) - iv * v.transpose()) / h;
-    part.add_body(node.mass / h, &turning, &place.to_center, &end.to_center);
+    let mut part = Stiffness::of_body(node.mass / h, &turning, &place.to_center, &end.to_center);
     for touch in &touches[node.sites.clone()] {
         if touch.force.slope != Matrix3::zeros() {
             let k = touch.force.slope * (-0.5 * h);
             part.add_point(&k, &(place.to_center + touch.begin), &(end.to_center + touch.end));
         }
     }
+    part
 }

@@ -99,3 +99,58 @@ impl Guess {
         self.differences.each_ref().map(Vec::len)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::node::nodes;
+    use super::*;
+    use crate::multibody::{Body, Joint, JointConstraint, Link, System};
+    use nalgebra::Vector3;
+
+    fn free_body() -> Vec<Node> {
+        let joint = Joint {
+            outboard: [0.0; 3],
+            inboard: [0.0; 3],
+            home: [1.0, 0.0, 0.0, 0.0],
+            constraint: JointConstraint::Floating,
+        };
+        let body = Body { mass: 1.0, inertia: [1.0; 3] };
+        let system = System::new(vec![Link { inboard: None, joint, body }], 0.0);
+        nodes(&system.expect("a system")).0
+    }
+
+    fn way(x: f64) -> Vec<Increment> {
+        vec![Increment { position: Vector3::new(x, -x, 0.5 * x), ..Increment::NONE }]
+    }
+
+    /// Cubic courses are carried on exactly; for two steps after a jump, a straight line is drawn.
+    #[test]
+    fn smooth_courses_are_carried_on_and_jumps_are_not() {
+        let nodes = free_body();
+        let course = |n: i32| {
+            let t = 0.1 * f64::from(n);
+            1.0 + 2.0 * t - 0.7 * t * t + 0.3 * t * t * t
+        };
+        let mut guess = Guess::new(6);
+        guess.start(&nodes, &way(course(0)));
+        let mut next = way(0.0);
+        for n in 1..8 {
+            guess.learn(&nodes, &way(course(n)));
+        }
+        guess.make(&nodes, &mut next);
+        assert_eq!(guess.degree, 3);
+        assert!((next[0].position - way(course(8))[0].position).norm() < 1e-13);
+        for n in 8..10 {
+            guess.learn(&nodes, &way(5.0 + course(n)));
+        }
+        guess.make(&nodes, &mut next);
+        let line = 5.0 + 2.0 * course(9) - course(8);
+        assert_eq!(guess.degree, 1);
+        assert!((next[0].position - way(line)[0].position).norm() < 1e-12);
+        // In steps half as long, the same line.
+        guess.scale(0.5);
+        guess.make(&nodes, &mut next);
+        let shorter = 0.5 * (5.0 + course(9)) + 0.25 * (course(9) - course(8));
+        assert!((next[0].position - way(shorter)[0].position).norm() < 1e-12);
+    }
+}

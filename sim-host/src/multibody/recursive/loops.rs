@@ -8,9 +8,10 @@
 //! ```
 //! Cost: one solution of the tree for each constraint, and elimination of a small dense matrix.
 
+use super::super::BodyState;
 use super::super::closure::Closure;
 use super::super::system::{System, WORLD};
-use super::super::{BodyState, Rows};
+use super::closing_rows::{ClosingRow, Seen, closing_rows};
 use super::elimination::Elimination;
 use super::node::{Node, Place};
 use super::stiffness::Pair;
@@ -79,7 +80,7 @@ impl Loops {
             let place = &places[k];
             (body_state(&place.center, place.orientation.to_array()), place.to_center)
         };
-        self.each(closures, state, |row, pairs, _| row.begin = pairs);
+        self.each(closures, state, |row, found| row.begin = found.pairs);
     }
 
     /// Impulses of closing joints' motors at the beginning of a step.
@@ -97,9 +98,9 @@ impl Loops {
             let q = end.turn.turned(place.orientation.to_array());
             (body_state(&center, q), end.to_center)
         };
-        self.each(closures, state, |row, pairs, error| {
-            row.end = pairs;
-            row.error = error;
+        self.each(closures, state, |row, found| {
+            row.end = found.pairs;
+            row.error = found.error;
         });
     }
 
@@ -108,18 +109,16 @@ impl Loops {
     fn each(
         &mut self,
         closures: &[Closure],
-        state: impl Fn(usize) -> (BodyState, Vector3<f64>),
-        mut fill: impl FnMut(&mut Row, [Pair; 2], f64),
+        state: impl Fn(usize) -> Seen,
+        fill: impl Fn(&mut Row, &ClosingRow),
     ) {
         let mut next = 0;
         for closure in closures {
-            let (x_o, arm_o) = state(closure.outboard);
-            let (x_i, arm_i) = closure.inboard.map_or((WORLD, Vector3::zeros()), &state);
-            let Rows { error, outboard, inboard } = closure.rows(&x_o, &x_i);
-            for c in 0..closure.constraints() {
-                let pairs =
-                    [tangent(&outboard[c], &x_o, &arm_o), tangent(&inboard[c], &x_i, &arm_i)];
-                fill(&mut self.rows[next], pairs, error[c]);
+            let outboard = state(closure.outboard);
+            let inboard = closure.inboard.map_or((WORLD, Vector3::zeros()), &state);
+            let found = closing_rows(closure, &outboard, &inboard);
+            for row in &found[..closure.constraints()] {
+                fill(&mut self.rows[next], row);
                 next += 1;
             }
         }
@@ -264,18 +263,4 @@ impl Row {
 
 fn body_state(center: &Vector3<f64>, q: [f64; 4]) -> BodyState {
     [center.x, center.y, center.z, q[0], q[1], q[2], q[3]]
-}
-
-/// A row in seven coordinates as one along place and turn (world axes) about a reference point, from which
-/// `arm` leads to the centre of mass: `q̇ = ½ (0, ω) ⋆ q`.
-fn tangent(row: &BodyState, x: &BodyState, arm: &Vector3<f64>) -> Pair {
-    let linear = Vector3::new(row[0], row[1], row[2]);
-    let [s, a, b, c] = [x[3], x[4], x[5], x[6]];
-    let [g, i, j, k] = [row[3], row[4], row[5], row[6]];
-    let turning = Vector3::new(
-        -a * g + s * i - c * j + b * k,
-        -b * g + c * i + s * j - a * k,
-        -c * g - b * i + a * j + s * k,
-    ) * 0.5;
-    Pair { linear, angular: turning + arm.cross(&linear) }
 }

@@ -10,6 +10,7 @@
 mod accept;
 mod bond;
 mod checkpoint;
+mod closing_rows;
 mod coordinates;
 mod driven_loops;
 mod elimination;

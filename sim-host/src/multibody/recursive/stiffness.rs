@@ -114,23 +114,23 @@ impl Stiffness {
     /// A body's own about its reference point: mass over the step, and `turning` about the centre of
     /// mass, from which the arms lead.
     #[inline]
-    pub fn add_body(
-        &mut self,
+    pub fn of_body(
         mass: f64,
         turning: &Matrix3<f64>,
         begin: &Vector3<f64>,
         end: &Vector3<f64>,
-    ) {
-        for i in 0..3 {
-            self.force_by_place[(i, i)] += mass;
-        }
-        self.force_by_turn -= skew(end) * mass;
-        self.moment_by_place += skew(begin) * mass;
+    ) -> Self {
         // −m b̂ ê = m ((b·e) 1 − e bᵀ)
         let along = mass * begin.dot(end);
-        self.moment_by_turn += turning - (end * mass) * begin.transpose();
+        let mut moment_by_turn = turning - (end * mass) * begin.transpose();
         for i in 0..3 {
-            self.moment_by_turn[(i, i)] += along;
+            moment_by_turn[(i, i)] += along;
+        }
+        Self {
+            force_by_place: Matrix3::from_diagonal_element(mass),
+            force_by_turn: skew(&(end * -mass)),
+            moment_by_place: skew(&(begin * mass)),
+            moment_by_turn,
         }
     }
 
@@ -188,6 +188,40 @@ impl Stiffness {
             angular: self.force_by_turn.tr_mul(begin),
         };
         let pivot = begin.dot(&impulse.linear) + own;
+        self.eliminate(impulse, answer, pivot)
+    }
+
+    /// Eliminates one of a ball's turns: about a unit axis at the beginning.
+    #[inline]
+    pub fn eliminate_ball_turn(&mut self, axis: usize, end: &Vector3<f64>) -> Option<Column> {
+        let impulse = Pair { linear: self.force_by_turn * end, angular: self.moment_by_turn * end };
+        let answer = Pair {
+            linear: self.moment_by_place.row(axis).transpose(),
+            angular: self.moment_by_turn.row(axis).transpose(),
+        };
+        self.eliminate(impulse, answer, impulse.angular[axis])
+    }
+
+    /// Eliminates one of a free body's six motions: along unit axes, then about them.
+    #[inline]
+    pub fn eliminate_free(&mut self, motion: usize) -> Option<Column> {
+        let i = motion % 3;
+        let [by_motion, of_motion] = if motion < 3 {
+            [
+                [&self.force_by_place, &self.moment_by_place],
+                [&self.force_by_place, &self.force_by_turn],
+            ]
+        } else {
+            [
+                [&self.force_by_turn, &self.moment_by_turn],
+                [&self.moment_by_place, &self.moment_by_turn],
+            ]
+        };
+        let [linear, angular] = by_motion.map(|m| m.column(i).into_owned());
+        let impulse = Pair { linear, angular };
+        let [linear, angular] = of_motion.map(|m| m.row(i).transpose());
+        let answer = Pair { linear, angular };
+        let pivot = if motion < 3 { answer.linear[i] } else { answer.angular[i] };
         self.eliminate(impulse, answer, pivot)
     }
 
