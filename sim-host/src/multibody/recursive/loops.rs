@@ -161,11 +161,13 @@ impl Loops {
         for j in 0..n {
             let row = self.rows[j];
             let unit = |k: usize| {
+                let [outboard, inboard] = row.bodies;
                 let mut sum = Pair::ZERO;
-                for (body, pair) in row.bodies.iter().zip(&row.begin) {
-                    if *body == Some(k) {
-                        sum.subtract(pair);
-                    }
+                if outboard == Some(k) {
+                    sum.subtract(&row.begin[0]);
+                }
+                if inboard == Some(k) {
+                    sum.subtract(&row.begin[1]);
                 }
                 sum
             };
@@ -253,11 +255,9 @@ pub(super) const MOST: usize = 96;
 impl Row {
     /// `G⁺` along a motion of all bodies.
     fn along(&self, motions: &[Pair]) -> f64 {
-        self.bodies
-            .iter()
-            .zip(&self.end)
-            .filter_map(|(body, pair)| body.map(|k| pair.dot(&motions[k])))
-            .sum()
+        let [outboard, inboard] = self.bodies;
+        outboard.map_or(0.0, |k| self.end[0].dot(&motions[k]))
+            + inboard.map_or(0.0, |k| self.end[1].dot(&motions[k]))
     }
 }
 
