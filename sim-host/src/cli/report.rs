@@ -35,12 +35,9 @@ impl<'a> Report<'a> {
     }
 }
 
-/// Unknowns of a step: the velocities, and the constraints where feet are welded.
-fn unknowns(scene: &Scene) -> usize {
-    match scene.feet {
-        crate::scene::Feet::Floor { .. } => 18,
-        crate::scene::Feet::Welded {} => 30,
-    }
+/// Unknowns of a step: velocities, and constraints beside the tree; none where there is no plant.
+fn unknowns(scene: &Scene) -> Option<usize> {
+    crate::closed_loop::plant(scene).ok().map(|plant| plant.unknowns())
 }
 
 /// The summary.

@@ -10,8 +10,11 @@ use crate::record::SavedMotion;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NotMerged {
     /// There are none to merge.
-    #[error("no link is fixed to another")]
+    #[error("no link is fixed to another, or to the world")]
     NothingFixed,
+    /// There would be none left.
+    #[error("all links are fixed to the world")]
+    NothingMoves,
     /// Events name contact points by their order.
     #[error("merged links would change the order of the contact points")]
     Order,
@@ -29,7 +32,7 @@ pub(super) struct MergedStart {
     pub simulation: Simulation,
 }
 
-/// The motion with links on fixed joints merged.
+/// The motion with links on fixed joints merged, with one another or with the world.
 ///
 /// # Errors
 /// A [`SystemError`]; inside, why there is nothing to merge.
@@ -38,12 +41,14 @@ pub(super) fn without_fixed_joints(
     torques: &[f64],
 ) -> Result<Result<MergedStart, NotMerged>, SystemError> {
     let is_fixed = |joint: &JointConstraint| *joint == JointConstraint::Fixed;
-    let links = whole.system().links();
-    if !links.iter().any(|l| l.inboard.is_some() && is_fixed(&l.joint.constraint)) {
+    if !whole.system().links().iter().any(|l| is_fixed(&l.joint.constraint)) {
         return Ok(Err(NotMerged::NothingFixed));
     }
     let reduced = merged(whole.system())?;
-    let carrier = |link: usize| reduced.carrier(link).map(|(link, _)| link);
+    if reduced.system.links().is_empty() {
+        return Ok(Err(NotMerged::NothingMoves));
+    }
+    let carrier = |link: usize| reduced.carrier(link).and_then(|(link, _)| link);
     let sites = whole.system().sites();
     if !sites.is_sorted_by_key(|site| carrier(site.link)) {
         return Ok(Err(NotMerged::Order));
@@ -60,7 +65,7 @@ pub(super) fn without_fixed_joints(
     for (link, torque) in torques.iter().enumerate() {
         // What drives a fixed joint does nothing.
         if !is_fixed(&whole.system().links()[link].joint.constraint)
-            && let Some((link, _)) = reduced.carrier(link)
+            && let Some((Some(link), _)) = reduced.carrier(link)
         {
             simulation.set_torque(link, *torque);
             carried[link] = *torque;
@@ -90,7 +95,8 @@ impl Moving for Merged {
     }
 
     fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError> {
-        self.moving.conserved()
+        let (energy, momentum, constraint) = self.moving.conserved()?;
+        Ok((energy + self.reduced.still_energy(), momentum, constraint))
     }
 
     fn progress(&self) -> &Progress {

@@ -1,7 +1,8 @@
 //! Joints that close loops, and constraints of a user's own.
 
 use super::body::BodyState;
-use super::joint::{Joint, Rows};
+use super::gimbal::Gimbal;
+use super::joint::{Joint, JointConstraint, Rows};
 use super::system::WORLD;
 use num_dual::Dual64;
 use std::sync::Arc;
@@ -34,6 +35,29 @@ pub struct Closure {
     pub inboard: Option<usize>,
     /// What it keeps.
     pub closing: Closing,
+}
+
+/// Motors of a joint that closes a loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClosingMotors {
+    /// The closure's number.
+    pub closure: usize,
+    /// Axes of a spherical joint's motors; none for other joints.
+    pub gimbal: Option<Gimbal>,
+}
+
+impl ClosingMotors {
+    /// Whether a closure can have them.
+    pub(super) fn fit(&self, closure: &Closure) -> bool {
+        let Closing::Joint(joint) = &closure.closing else { return false };
+        match joint.constraint {
+            JointConstraint::Revolute { .. } | JointConstraint::Universal { .. } => {
+                self.gimbal.is_none()
+            }
+            JointConstraint::Spherical => self.gimbal.is_some(),
+            _ => false,
+        }
+    }
 }
 
 impl Closure {

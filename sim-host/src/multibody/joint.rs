@@ -4,6 +4,7 @@
 //! `o, i`: outboard and inboard body; `a_o, a_i`: the joint's point in their frames; `R v = q ⋆ v ⋆ q̄`,
 //! for a quaternion of any length, as Newton's iterates have
 
+use super::body::BodyState;
 use super::constrained::tree_solver::{COORDINATES, MOST};
 use crate::mechanics::Scalar;
 
@@ -52,6 +53,16 @@ pub enum JointConstraint {
 }
 
 impl Joint {
+    /// What holds a body where it is.
+    pub fn weld(&[x, y, z, s, i, j, k]: &BodyState) -> Self {
+        Self {
+            outboard: [0.0; 3],
+            inboard: [x, y, z],
+            home: [s, i, j, k],
+            constraint: JointConstraint::Fixed,
+        }
+    }
+
     /// How many constraints it has.
     pub fn constraints(&self) -> usize {
         match self.constraint {
@@ -201,7 +212,7 @@ impl Rows {
 }
 
 /// Two unit vectors at right angles to an axis and to each other.
-fn across([x, y, z]: &[f64; 3]) -> [[f64; 3]; 2] {
+pub(super) fn across([x, y, z]: &[f64; 3]) -> [[f64; 3]; 2] {
     // Duff et al. 2017, "Building an orthonormal basis, revisited".
     let sign = 1.0_f64.copysign(*z);
     let a = -1.0 / (sign + z);

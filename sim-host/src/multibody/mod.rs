@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! Body, Joint ─► System ─┬► merged, lumped ─► Reduced: a smaller system, and how its bodies carry the others
+//!                        ├► rerooted ─► Rerooted: the same bodies, hanging from those that the world holds
 //!                        ├► Simulation: joint coordinates, which play every scene with bodies
 //!                        ├► PlanarSimulation: the same of what stays in a plane; SingleBody: of one free body
 //!                        └► ConstrainedSimulation: as the text has it (5.11), (5.13), Alg. 5.1; the oracle
@@ -20,6 +21,7 @@ mod recursive;
 mod reduction;
 mod robot;
 mod single_body;
+mod start_check;
 mod stepping;
 mod striker;
 mod system;
@@ -28,14 +30,14 @@ mod system_measures;
 
 pub use body::{Body, BodyState};
 pub use chain::{Chain, ChainJoint};
-pub use closure::{Closing, Closure, ConstraintFunction};
+pub use closure::{Closing, ClosingMotors, Closure, ConstraintFunction};
 pub use constrained::{ConstrainedSimulation, Correction, Equations, SingularJoint, TreeEquations};
 pub use gimbal::Gimbal;
 pub use joint::{Joint, JointConstraint, MOST_CONSTRAINTS, Rows};
 pub use joint_law::{JointLaw, Stops};
 pub use planar::{NotPlanar, PlanarCheckpoint, PlanarError, PlanarSimulation, Plane};
 pub use recursive::{Checkpoint, Simulation, StepForecast};
-pub use reduction::{Frame, Reduced, Side, lumped, merged};
+pub use reduction::{Frame, Reduced, Rerooted, Seat, Side, lumped, merged, rerooted};
 pub use robot::{states_of_tree, system_of_tree};
 pub use single_body::{BodyCheckpoint, NotSingle, SingleBody, SingleBodyError};
 pub use striker::{BOX_POINTS, CORNERS, Striker};

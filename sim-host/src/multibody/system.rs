@@ -1,7 +1,7 @@
 //! A tree of bodies and joints.
 
 use super::body::{Body, BodyState};
-use super::closure::Closure;
+use super::closure::{ClosingMotors, Closure};
 use super::gimbal::Gimbal;
 use super::joint::{Joint, JointConstraint};
 use super::joint_law::JointLaw;
@@ -40,6 +40,7 @@ pub struct System {
     ground: Option<(Floor, Switching)>,
     sites: Vec<Site>,
     closures: Vec<Closure>,
+    closing_motors: Vec<ClosingMotors>,
     strikers: Vec<Striker>,
 }
 
@@ -69,6 +70,7 @@ impl System {
             ground: None,
             sites: Vec::new(),
             closures: Vec::new(),
+            closing_motors: Vec::new(),
             strikers: Vec::new(),
         })
     }
@@ -79,9 +81,8 @@ impl System {
     /// As for [`Self::new`].
     pub fn with_link(mut self, link: Link) -> Result<Self, SystemError> {
         self.links.push(link);
-        let System { links, gravity, laws, gimbals, ground, sites, closures, strikers } = self;
-        let checked = Self::new(links, gravity)?;
-        Ok(Self { laws, gimbals, ground, sites, closures, strikers, ..checked })
+        let Self { links, gravity, .. } = Self::new(std::mem::take(&mut self.links), self.gravity)?;
+        Ok(Self { links, gravity, ..self })
     }
 
     /// With a spring, damping or stops in the joint of a link.
@@ -157,6 +158,21 @@ impl System {
         Ok(self)
     }
 
+    /// With motors in a joint that closes a loop: one in a revolute joint, two in a universal one, three in a
+    /// spherical one, which needs their gimbal.
+    ///
+    /// # Errors
+    /// [`SystemError::ClosingMotors`].
+    pub fn with_closing_motors(mut self, motors: ClosingMotors) -> Result<Self, SystemError> {
+        let number = motors.closure;
+        let fits = self.closures.get(number).is_some_and(|closure| motors.fit(closure));
+        if !fits || self.closing_motors.iter().any(|other| other.closure == number) {
+            return Err(SystemError::ClosingMotors { closure: number });
+        }
+        self.closing_motors.push(motors);
+        Ok(self)
+    }
+
     /// With a free body that strikes another. Each free body strikes one body at most; those that strike
     /// come after all other links, in their order.
     ///
@@ -218,6 +234,11 @@ impl System {
         &self.closures
     }
 
+    /// Motors of joints that close loops.
+    pub fn closing_motors(&self) -> &[ClosingMotors] {
+        &self.closing_motors
+    }
+
     /// The links.
     pub fn links(&self) -> &[Link] {
         &self.links
@@ -226,57 +247,5 @@ impl System {
     /// m/s², against z.
     pub fn gravity(&self) -> f64 {
         self.gravity
-    }
-
-    /// Checks a start on its manifold.
-    pub(super) fn check_start(
-        &self,
-        states: &[BodyState],
-        rates: &[BodyState],
-    ) -> Result<(), SystemError> {
-        const CLOSE: f64 = 1e-8;
-        let links = self.links.len();
-        for given in [states.len(), rates.len()] {
-            if given != links {
-                return Err(SystemError::Length { given, links });
-            }
-        }
-        let still: BodyState = [0.0; 7];
-        for (link, (x, v)) in states.iter().zip(rates).enumerate() {
-            if let Some(coordinate) = (0..7).find(|i| !(x[*i].is_finite() && v[*i].is_finite())) {
-                return Err(SystemError::NotFinite { link, coordinate });
-            }
-            let speed = v.iter().fold(1.0_f64, |m, v| m.max(v.abs()));
-            let norm: f64 = x[3..].iter().map(|q| q * q).sum::<f64>() - 1.0;
-            let norm_rate: f64 = (3..7).map(|i| 2.0 * x[i] * v[i]).sum();
-            let Link { inboard, joint, .. } = &self.links[link];
-            let (x_i, v_i) = inboard.map_or((&WORLD, &still), |k| (&states[k], &rates[k]));
-            let rows = joint.rows(x, x_i);
-            let rate = |c: usize| -> f64 {
-                (0..7).map(|i| rows.outboard[c][i] * v[i] + rows.inboard[c][i] * v_i[i]).sum()
-            };
-            let constraints = joint.constraints();
-            let worst = (0..constraints)
-                .map(|c| rows.error[c].abs().max(rate(c).abs() / speed))
-                .fold(norm.abs().max(norm_rate.abs() / speed), f64::max);
-            if !(worst <= CLOSE * x.iter().fold(1.0_f64, |m, x| m.max(x.abs()))) {
-                return Err(SystemError::OffManifold { link, value: worst });
-            }
-        }
-        for (number, closure) in self.closures.iter().enumerate() {
-            let rows = closure.at(states);
-            let (v_o, v_i) = closure.ends(rates, &still);
-            let worst = (0..closure.constraints()).fold(0.0_f64, |m, c| {
-                let rate: f64 = (0..7)
-                    .map(|i| rows.outboard[c][i] * v_o[i] + rows.inboard[c][i] * v_i[i])
-                    .sum();
-                let found = rows.error[c].abs().max(rate.abs());
-                if found > m || found.is_nan() { found } else { m }
-            });
-            if !(worst <= CLOSE * 10.0) {
-                return Err(SystemError::OpenLoop { closure: number, value: worst });
-            }
-        }
-        Ok(())
     }
 }

@@ -92,6 +92,15 @@ pub enum SystemError {
         /// Which one.
         closure: usize,
     },
+    /// A joint that closes a loop cannot have motors, or has some.
+    #[error(
+        "loop {closure}: motors need a revolute, universal or spherical joint that has none yet, and their axes if \
+         it is spherical"
+    )]
+    ClosingMotors {
+        /// Which one.
+        closure: usize,
+    },
     /// A start violates a loop's constraint.
     #[error("loop {closure}: the start violates its constraint by {value:.1e}")]
     OpenLoop {

@@ -2,6 +2,7 @@
 
 use super::callgrind::count;
 use super::play::{PlayFailure, Played, Rung};
+use super::saving::Saving;
 use crate::scene::{self, Scene};
 use clap::ValueEnum;
 use nalgebra::Vector3;
@@ -41,6 +42,8 @@ pub struct Ladder {
     pub chosen: scene::Rung,
     /// Every rung.
     pub rows: Vec<Row>,
+    /// What lumping saves, and why no more.
+    pub savings: Vec<Saving>,
 }
 
 /// Instructions are counted over this much of the motion, s: landing and the better part of the rise.
@@ -93,7 +96,8 @@ pub fn climb(name: &str, scene: &Scene, progress: &(dyn Fn(usize) + Sync)) -> La
         rows.push(row);
     }
     progress(rungs.len());
-    Ladder { scene: scene.name.clone(), chosen: scene.rung(), rows }
+    let savings = Saving::all(&rows);
+    Ladder { scene: scene.name.clone(), chosen: scene.rung(), rows, savings }
 }
 
 fn quickest(rung: Rung, scene: &Scene) -> Result<Played, PlayFailure> {

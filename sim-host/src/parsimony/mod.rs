@@ -9,8 +9,10 @@ mod callgrind;
 mod ladder;
 mod mechanism_ladder;
 mod play;
+mod saving;
 
 pub use callgrind::{CountFailure, count};
 pub use ladder::{Ladder, Row, climb, word};
 pub use mechanism_ladder::{MechanismLadder, MechanismRow, MechanismRung, climb_mechanism};
 pub use play::{PlayFailure, Played, Rung};
+pub use saving::Saving;

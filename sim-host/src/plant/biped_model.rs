@@ -1,14 +1,10 @@
 //! How many bodies the biped is made of.
 
-use super::{PlantState, StepFailure};
-use crate::multibody::{
-    BodyState, Frame, Reduced, Side, System, SystemError, lumped, states_of_tree, system_of_tree,
-};
+use crate::multibody::Side;
 use serde::{Deserialize, Serialize};
-use surefoot::model::robots::biped::{FEET, TREE};
 
 /// Bodies of §4.1.
-const BODIES: usize = 13;
+pub(super) const BODIES: usize = 13;
 
 /// Links of the small bodies inside hips and ankles, and the neighbour that each is given to. A leg moves most about
 /// the lateral axis: about that a hip's inner body turns with the central body, its outer one with the thigh, and
@@ -49,62 +45,6 @@ impl std::fmt::Display for BipedModel {
         f.write_str(match self {
             Self::Full => "full",
             Self::Lumped => "lumped",
-        })
-    }
-}
-
-/// The biped's system, and where its parts are in it.
-#[derive(Clone, Debug)]
-pub(super) struct BipedSystem {
-    pub system: System,
-    /// Joints with motors in the order of torques: link, and how many motors it has.
-    pub joints: Vec<(usize, usize)>,
-    /// Links of the left and the right foot, and the foot's frame in them.
-    pub feet: [(usize, Frame); 2],
-    /// The frame of §4.1's body 1 in link 0.
-    pub central: Frame,
-    reduced: Option<Reduced>,
-}
-
-impl BipedSystem {
-    /// # Errors
-    /// Never for §4.1's biped.
-    pub fn new(model: BipedModel) -> Result<Self, SystemError> {
-        let full = system_of_tree(&TREE)?;
-        if model == BipedModel::Full {
-            return Ok(Self {
-                system: full,
-                joints: (1..BODIES).map(|link| (link, 1)).collect(),
-                feet: FEET.map(|foot| (foot, Frame::IDENTITY)),
-                central: Frame::IDENTITY,
-                reduced: None,
-            });
-        }
-        let reduced = lumped(&full, &SMALL_BODIES)?;
-        let carrier = |link: usize| {
-            let what = "a body that stays";
-            reduced.carrier(link).ok_or(SystemError::Unsupported { link, what })
-        };
-        let feet = [carrier(FEET[0])?, carrier(FEET[1])?];
-        let central = carrier(0)?.1;
-        let system = reduced.system.clone();
-        let motors = |link: usize| 6 - system.links()[link].joint.constraints();
-        let joints = (1..system.links().len()).map(|link| (link, motors(link))).collect();
-        Ok(Self { system, joints, feet, central, reduced: Some(reduced) })
-    }
-
-    /// All bodies' states and rates.
-    ///
-    /// # Errors
-    /// [`StepFailure::Dynamics`] for no configuration.
-    pub fn start(
-        &self,
-        state: &PlantState,
-    ) -> Result<(Vec<BodyState>, Vec<BodyState>), StepFailure> {
-        let (states, rates) = states_of_tree(&TREE, &state.positions, &state.velocities)?;
-        Ok(match &self.reduced {
-            Some(reduced) => reduced.start(&states, &rates),
-            None => (states, rates),
         })
     }
 }

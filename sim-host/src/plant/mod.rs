@@ -1,6 +1,7 @@
 //! Plants: robots that move under torques.
 
 mod biped_model;
+mod biped_system;
 mod configuration;
 mod energies;
 mod joint_stops;

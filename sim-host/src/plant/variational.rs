@@ -1,22 +1,21 @@
 //! The biped on the symplectic simulator of chapter 5, with all its bodies or lumped: the default plant.
 
-use super::biped_model::{BipedModel, BipedSystem};
+use super::biped_model::BipedModel;
+use super::biped_system::{BipedSystem, Foot, Motors};
 use super::joint_stops::with_stops;
-use super::{BlockSample, NV, Observation, Plant, PlantState, StepFailure, ThrownBlock};
+use super::{BlockSample, NQ, NV, Observation, Plant, PlantState, StepFailure, ThrownBlock};
 use crate::contact::{ContactState, Floor, Switching};
 use crate::integrators::Progress;
-use crate::multibody::{
-    BodyState, Checkpoint, Closing, Closure, Frame, Joint, JointConstraint, Simulation, Site,
-    Stops, System, SystemError,
-};
+use crate::multibody::{BodyState, Checkpoint, Frame, Seat, Simulation, Site, Stops, SystemError};
 use nalgebra::Vector3;
 use surefoot::model::robots::biped::SoleOutline;
 use surefoot::spatial::{Quaternion, Wrench};
 
 /// Corners of a sole.
 const CORNERS: usize = 4;
-/// Constraints of a welded foot.
-const WELD: usize = 6;
+
+/// Columns of the robot and a block, at most.
+const MOST_COLUMNS: usize = NV + 6;
 
 /// What a scene makes of the robot, and adds to it; nothing unless said, and then nothing of it is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,10 +32,11 @@ pub struct Additions {
 #[derive(Clone, Debug)]
 pub struct Variational {
     simulation: Simulation,
-    /// Links with motors, and how many.
-    joints: Vec<(usize, usize)>,
-    /// The frame of body 1 of §4.1 in link 0.
-    central: Frame,
+    motors: Vec<Motors>,
+    feet: [Foot; 2],
+    /// Link of body 1 of §4.1, and its frame in it.
+    central: (usize, Frame),
+    still_energy: f64,
     is_on_floor: bool,
     /// Its link.
     block: Option<usize>,
@@ -55,64 +55,39 @@ impl Variational {
         outline: &SoleOutline,
         additions: &Additions,
     ) -> Result<Self, StepFailure> {
-        let mut biped = biped(additions)?;
+        let mut biped = biped(state, additions)?;
         let corners = outline.corners();
-        let of_feet = biped.feet.into_iter().flat_map(|(link, foot)| {
-            corners.map(|corner| Site { link, position: foot.point(corner).into() })
+        let of_feet = biped.feet.into_iter().flat_map(|foot| {
+            let Foot::Free(link, frame) = foot else { return Vec::new() };
+            corners.map(|corner| Site { link, position: frame.point(corner).into() }).to_vec()
         });
-        let block = biped.system.links().len();
+        let block = biped.system.links().len() - 1;
         let of_block = additions.block.iter().flat_map(ThrownBlock::corners);
         let sites =
             of_feet.chain(of_block.map(|position| Site { link: block, position })).collect();
-        biped.system = with_block(biped.system, additions)?.on_floor(
-            floor,
-            Switching::WithinTheStep,
-            sites,
-        )?;
-        Self::new(state, h, biped, additions, true)
+        biped.system = biped.system.on_floor(floor, Switching::WithinTheStep, sites)?;
+        Self::new(h, biped, additions)
     }
 
-    /// With both feet held where they start: the loop through the floor is closed by constraints. A block
+    /// With both feet held where they start: both legs hang from the world, and one joint closes the loop. A block
     /// falls without end, as there is no floor.
     ///
     /// # Errors
     /// As for [`Self::on_floor`].
     pub fn welded(state: &PlantState, h: f64, additions: &Additions) -> Result<Self, StepFailure> {
-        let mut biped = biped(additions)?;
-        let (states, _) = biped.start(state)?;
-        let mut system = with_block(biped.system.clone(), additions)?;
-        for (foot, _) in biped.feet {
-            let [x, y, z, s, i, j, k] = states[foot];
-            let weld = Joint {
-                outboard: [0.0; 3],
-                inboard: [x, y, z],
-                home: [s, i, j, k],
-                constraint: JointConstraint::Fixed,
-            };
-            let closing = Closing::Joint(weld);
-            system = system.with_closure(Closure { outboard: foot, inboard: None, closing })?;
-        }
-        biped.system = system;
-        Self::new(state, h, biped, additions, false)
+        Self::new(h, biped(state, additions)?.on_still_feet()?, additions)
     }
 
-    fn new(
-        state: &PlantState,
-        h: f64,
-        biped: BipedSystem,
-        additions: &Additions,
-        is_on_floor: bool,
-    ) -> Result<Self, StepFailure> {
-        let (mut states, mut rates) = biped.start(state)?;
-        let block = additions.block.as_ref().map(|block| {
-            let (state, rate) = block.start();
-            states.push(state);
-            rates.push(rate);
-            states.len() - 1
-        });
-        let BipedSystem { system, joints, central, .. } = biped;
-        let simulation = Simulation::new(system, h, &states, &rates)?;
-        Ok(Self { simulation, joints, central, is_on_floor, block })
+    fn new(h: f64, biped: BipedSystem, additions: &Additions) -> Result<Self, StepFailure> {
+        let BipedSystem { system, states, rates, motors, feet, central, still_energy } = biped;
+        let is_on_floor = system.ground().is_some();
+        let block = additions.block.map(|_| states.len() - 1);
+        let floats = system.links()[central.0].joint.constraints() == 0;
+        let mut simulation = Simulation::new(system, h, &states, &rates)?;
+        if !floats {
+            simulation = simulation.watching(central.0)?;
+        }
+        Ok(Self { simulation, motors, feet, central, still_energy, is_on_floor, block })
     }
 
     /// The simulation.
@@ -120,28 +95,47 @@ impl Variational {
         &self.simulation
     }
 
-    /// A load about the central body's centre, about link 0's; with the arm half way through the step, so that
+    /// Velocity of the central body's link at its centre of mass and its angular velocity, world axes.
+    fn twist(&mut self) -> Result<[Vector3<f64>; 2], StepFailure> {
+        let found = self.simulation.observed_twist(self.central.0)?;
+        // It floats or is watched.
+        Ok(found.unwrap_or([Vector3::zeros(); 2]))
+    }
+
+    /// A load about the central body's centre, about its link's; with the arm half way through the step, so that
     /// the method keeps its order.
     fn on_link(&mut self, load: Wrench<f64>) -> Result<Wrench<f64>, StepFailure> {
-        if self.central.position == Vector3::zeros() {
+        let (link, frame) = self.central;
+        if frame.position == Vector3::zeros() {
             return Ok(load);
         }
         let half = 0.5 * self.simulation.progress().h;
-        let turning = Vector3::from_row_slice(&self.simulation.observed_rates()?[3..6]);
-        let q = orientation(&self.simulation.state(0));
-        let arm = Quaternion::from_rotation_vector(turning * half)
-            .rotate(q.rotate(self.central.position));
+        let [_, turning] = self.twist()?;
+        let q = orientation(&self.simulation.state(link));
+        let arm = Quaternion::from_rotation_vector(turning * half).rotate(q.rotate(frame.position));
         Ok(Wrench { force: load.force, torque: load.torque + arm.cross(&load.force) })
     }
 
-    /// Vertical forces of the ground on the feet in the last step, N.
+    /// Vertical forces of the ground on the feet in the last step, N: the impulse at its beginning over its length.
     fn vertical(&self) -> [f64; 2] {
         if let Some(feet) = self.corner_forces() {
             return feet.map(|corners| corners.iter().map(|force| force[2]).sum());
         }
-        // Of a weld's constraints the third is the foot's height.
-        let impulses = self.simulation.loop_impulses();
-        [0, 1].map(|foot| impulses[WELD * foot + 2] / self.simulation.progress().h)
+        let progress = self.simulation.progress();
+        // A node of the discrete trajectory bears half the weight of the step before, and half that of the next.
+        let share = match progress.steps {
+            0 => 0.0,
+            1 => 0.5,
+            _ => 1.0,
+        };
+        self.feet.map(|foot| match foot {
+            Foot::Still(link, weight) => {
+                self.simulation.world_impulse(link)[2] / progress.h + share * weight
+            }
+            // Of a weld's constraints the third is the foot's height.
+            Foot::Welded => self.simulation.loop_impulses()[2] / progress.h,
+            Foot::Free(..) => 0.0,
+        })
     }
 
     /// Forces of the floor on the corners in the last step, N.
@@ -152,14 +146,19 @@ impl Variational {
     }
 }
 
-/// The robot with stops.
-fn biped(additions: &Additions) -> Result<BipedSystem, StepFailure> {
-    let mut biped = BipedSystem::new(additions.model)?;
+/// The robot with stops, and with a block as the last link.
+fn biped(state: &PlantState, additions: &Additions) -> Result<BipedSystem, StepFailure> {
+    let mut biped = BipedSystem::new(additions.model, state)?;
     if additions.stops.is_some() && additions.model != BipedModel::Full {
         let what = "the full model, whose hinges can have stops,";
         return Err(SystemError::Unsupported { link: 1, what }.into());
     }
     biped.system = with_stops(biped.system, additions.stops.as_ref())?;
+    if let Some(block) = &additions.block {
+        let link = biped.system.links().len();
+        biped = biped.with_link(block.link(), block.start())?;
+        biped.system = biped.system.with_striker(block.striker(link))?;
+    }
     Ok(biped)
 }
 
@@ -167,37 +166,50 @@ fn orientation(state: &BodyState) -> Quaternion<f64> {
     Quaternion::from_array([state[3], state[4], state[5], state[6]])
 }
 
-/// With a block as the last link.
-fn with_block(system: System, additions: &Additions) -> Result<System, SystemError> {
-    let link = system.links().len();
-    match &additions.block {
-        Some(block) => system.with_link(block.link())?.with_striker(block.striker(link)),
-        None => Ok(system),
+/// Motors of a joint from the one body's side, in the order of the other's.
+fn in_order(mut all: [f64; 3], count: usize, is_reversed: bool) -> [f64; 3] {
+    if is_reversed {
+        all[..count].reverse();
     }
+    all
 }
 
 impl Plant for Variational {
     fn state(&mut self) -> Result<PlantState, StepFailure> {
-        let mut velocities: [f64; NV] = [0.0; NV];
-        velocities.copy_from_slice(&self.simulation.observed_rates()?[..NV]);
-        let link = self.simulation.state(0);
-        let q = orientation(&link);
-        let arm = q.rotate(self.central.position);
-        let at = Vector3::new(link[0], link[1], link[2]) + arm;
-        let turned = q.product(self.central.orientation);
-        // A body twist of the central body, where the simulator has link 0's centre of mass and world axes.
-        let [v, omega] = [0, 3].map(|i| Vector3::from_row_slice(&velocities[i..i + 3]));
+        let (mut positions, mut velocities) = ([0.0; NQ], [0.0; NV]);
+        let (link, central) = self.central;
+        let body = self.simulation.state(link);
+        let q = orientation(&body);
+        let arm = q.rotate(central.position);
+        let at = Vector3::new(body[0], body[1], body[2]) + arm;
+        let turned = q.product(central.orientation);
+        // A body twist of the central body, where the simulator has its link's centre of mass and world axes.
+        let [v, omega] = self.twist()?;
         let to_body = turned.conjugate();
         velocities[..3].copy_from_slice(to_body.rotate(v + omega.cross(&arm)).as_slice());
         velocities[3..6].copy_from_slice(to_body.rotate(omega).as_slice());
-        let mut positions = [0.0; super::NQ];
         positions[..3].copy_from_slice(at.as_slice());
         positions[3..7].copy_from_slice(&turned.to_array());
-        let mut next = 7;
-        for (joint, motors) in &self.joints {
-            let angles = self.simulation.angles(*joint);
-            positions[next..next + motors].copy_from_slice(&angles[..*motors]);
-            next += motors;
+        let mut rates = [0.0; MOST_COLUMNS];
+        let observed = self.simulation.observed_rates()?;
+        rates.iter_mut().zip(observed).for_each(|(rate, observed)| *rate = *observed);
+        let mut next = 0;
+        for Motors { seat, count } in &self.motors {
+            let (angles, rates) = match *seat {
+                Seat::Tree { link, is_reversed } => {
+                    let own = &rates[self.simulation.columns(link)];
+                    let own = std::array::from_fn(|i| own.get(i).copied().unwrap_or(0.0));
+                    let told = |all| in_order(all, *count, is_reversed);
+                    (told(self.simulation.angles(link)), told(own))
+                }
+                Seat::Closure { closure } => {
+                    let rates = self.simulation.closing_rates(closure);
+                    (self.simulation.closing_angles(closure), rates)
+                }
+            };
+            positions[7 + next..][..*count].copy_from_slice(&angles[..*count]);
+            velocities[6 + next..][..*count].copy_from_slice(&rates[..*count]);
+            next += count;
         }
         Ok(PlantState { positions, velocities })
     }
@@ -211,15 +223,24 @@ impl Plant for Variational {
     ) -> Result<(), StepFailure> {
         debug_assert_eq!(step_s, self.simulation.progress().h);
         let mut next = 0;
-        for (joint, motors) in &self.joints {
-            self.simulation.set_torques(*joint, &torques[next..next + motors]);
-            next += motors;
+        for Motors { seat, count } in &self.motors {
+            let own = &torques[next..next + count];
+            match *seat {
+                Seat::Tree { link, is_reversed: false } => self.simulation.set_torques(link, own),
+                Seat::Tree { link, is_reversed: true } => {
+                    let all = std::array::from_fn(|i| own.get(i).copied().unwrap_or(0.0));
+                    let all = in_order(all, *count, true);
+                    self.simulation.set_torques(link, &all[..*count]);
+                }
+                Seat::Closure { closure } => self.simulation.set_closing_torques(closure, own),
+            }
+            next += count;
         }
         let Wrench { force, torque } = match load {
             Some(load) => self.on_link(load)?,
             None => Wrench::zero(),
         };
-        self.simulation.set_wrench(0, force.into(), torque.into());
+        self.simulation.set_wrench(self.central.0, force.into(), torque.into());
         Ok(self.simulation.step()?)
     }
 
@@ -240,7 +261,7 @@ impl Plant for Variational {
         let (kinetic_energy, potential_energy) = self.simulation.energies()?;
         Ok(Observation {
             kinetic_energy,
-            potential_energy,
+            potential_energy: potential_energy + self.still_energy,
             foot_forces: self.vertical(),
             contacts: self.contacts(),
             corner_forces: self.corner_forces(),

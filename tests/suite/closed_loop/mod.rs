@@ -11,3 +11,4 @@ mod plants;
 mod sensing;
 mod stops;
 mod supervised;
+mod welded;

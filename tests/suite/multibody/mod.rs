@@ -10,6 +10,7 @@ mod motion;
 mod oracle;
 mod planar;
 mod reference;
+mod rerooted;
 mod resume;
 mod solver;
 mod strikes;

@@ -8,7 +8,16 @@ use anyhow::{Result, ensure};
 const FEATURES: [(&str, &[&str]); 5] = [
     ("contact", &["sim-host/src/contact/"]),
     ("thrown bodies", &["recursive/strike.rs", "recursive/bond.rs", "multibody/striker.rs"]),
-    ("loops", &["recursive/loops.rs", "multibody/closure.rs", "multibody/joint.rs"]),
+    (
+        "loops",
+        &[
+            "recursive/loops.rs",
+            "recursive/closing_rows.rs",
+            "recursive/driven_loops.rs",
+            "multibody/closure.rs",
+            "multibody/joint.rs",
+        ],
+    ),
     ("springs, dampers, stops", &["multibody/joint_law.rs"]),
     ("motors of spherical joints", &["recursive/motors.rs", "multibody/gimbal.rs"]),
 ];

@@ -1,7 +1,7 @@
 //! A ladder of models as a table, as bars and as files, whatever it is a ladder of.
 
 use crate::chart::{Bar, Bars};
-use crate::parsimony::{Ladder, MechanismLadder, MechanismRung, Rung, word};
+use crate::parsimony::{Ladder, MechanismLadder, MechanismRung, Rung, Saving, word};
 use crate::report::Figure;
 use serde::Serialize;
 use std::fmt::Write;
@@ -31,6 +31,8 @@ pub(super) struct LadderTable {
     chosen: String,
     /// The largest model of the scene's own motion, and the smallest.
     ends: [String; 2],
+    /// What smaller models save, and why no more.
+    savings: Vec<String>,
 }
 
 impl From<&Ladder> for LadderTable {
@@ -57,6 +59,7 @@ impl From<&Ladder> for LadderTable {
             } else {
                 [Rung::WeldedFull, Rung::WeldedLumped].map(word)
             },
+            savings: ladder.savings.iter().map(saved).collect(),
         }
     }
 }
@@ -84,6 +87,7 @@ impl From<&MechanismLadder> for LadderTable {
                 word(MechanismRung::JointCoordinates),
                 ladder.rows.last().map_or_else(String::new, |row| word(row.rung)),
             ],
+            savings: Vec::new(),
         }
     }
 }
@@ -131,6 +135,9 @@ impl LadderTable {
             }
             last = Some(failure);
         }
+        for saving in &self.savings {
+            let _ = writeln!(out, "\n{saving}");
+        }
         let _ = writeln!(out, "\n`surefoot run` takes the {}.", self.chosen);
         out
     }
@@ -161,8 +168,10 @@ impl LadderTable {
     /// The drawing in a page, with links to the files.
     pub fn figure(&self, drawing: &str, files: &[PathBuf]) -> Figure {
         let note = format!(
-            "{} Deviations are of {}, at most, from the largest model of the same motion.",
-            self.about, self.who
+            "{} Deviations are of {}, at most, from the largest model of the same motion. {}",
+            self.about,
+            self.who,
+            self.savings.join(" ")
         );
         let names = files.iter().filter_map(|f| Some(f.file_name()?.to_string_lossy().into()));
         Figure::new(drawing, self.headline(), note).with_files(names)
@@ -219,4 +228,17 @@ impl LadderTable {
         panels.push(Bars::new(title, deviations).logarithmic());
         panels
     }
+}
+
+/// What lumping saves, and why no more.
+fn saved(saving: &Saving) -> String {
+    let Saving { full, lumped, share, bodies, each, common, each_for_half } = *saving;
+    format!(
+        "{} takes {:.0} % of {}: {bodies} bodies go, at {each:.0} instructions each. {common:.0} are for what both \
+         have (velocities, contact points, constraints, the step itself), whatever bodies cost; for half, a body \
+         would have to take {each_for_half:.0}.",
+        word(lumped),
+        100.0 * share,
+        word(full),
+    )
 }

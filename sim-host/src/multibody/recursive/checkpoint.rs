@@ -1,7 +1,10 @@
 //! All that a motion needs to go on: what it remembers of its past.
 
 use super::coordinates::{Coordinates, Increment};
+use super::guess::Guess;
+use super::held::Hold;
 use super::motors::Turned;
+use super::watched::Moved;
 use crate::contact::{BoxPoint, ContactPoint};
 use crate::integrators::Progress;
 use serde::{Deserialize, Serialize};
@@ -13,9 +16,11 @@ pub struct Checkpoint {
     pub(super) coordinates: Vec<Coordinates>,
     /// By column.
     pub(super) momenta: Vec<f64>,
-    /// Increments of the last two steps, and their length: from them Newton's method begins the next.
+    /// Increments of the last two steps, and their length.
     pub(super) last: [Vec<Increment>; 2],
     pub(super) last_h: f64,
+    /// Where Newton's method begins the next step.
+    pub(super) guess: Guess,
     /// Impulses of loops.
     pub(super) multipliers: Vec<f64>,
     /// By contact site.
@@ -28,9 +33,15 @@ pub struct Checkpoint {
     /// Mean forces on strikers in the last step, N.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) strike_forces: Vec<[f64; 3]>,
-    /// By spherical joint with motors.
+    /// By spherical joint with motors, then by loop that is driven.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) turned: Vec<Turned>,
+    /// By body that is watched.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) watched: Vec<Moved>,
+    /// By link that hangs from the world.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) holds: Vec<Hold>,
     /// Largest speed so far, m/s: what residuals are measured by.
     pub(super) fastest: f64,
     pub(super) progress: Progress,
@@ -45,12 +56,15 @@ impl Checkpoint {
             to.copy_from_slice(from);
         }
         self.last_h = other.last_h;
+        self.guess.copy_from(&other.guess);
         self.multipliers.copy_from_slice(&other.multipliers);
         self.memories.copy_from_slice(&other.memories);
         self.forces.copy_from_slice(&other.forces);
         self.strikes.copy_from_slice(&other.strikes);
         self.strike_forces.copy_from_slice(&other.strike_forces);
         self.turned.copy_from_slice(&other.turned);
+        self.watched.copy_from_slice(&other.watched);
+        self.holds.copy_from_slice(&other.holds);
         self.fastest = other.fastest;
         self.progress = other.progress;
     }
@@ -61,11 +75,12 @@ impl Checkpoint {
             (
                 c.coordinates.len(),
                 c.momenta.len(),
-                c.last.each_ref().map(Vec::len),
+                (c.last.each_ref().map(Vec::len), c.guess.sizes()),
                 c.multipliers.len(),
                 c.memories.len(),
                 c.forces.len(),
-                [c.strikes.len(), c.strike_forces.len(), c.turned.len()],
+                [c.strikes.len(), c.strike_forces.len()],
+                [c.turned.len(), c.watched.len(), c.holds.len()],
             )
         };
         sizes(self) == sizes(other) && self.progress.h == other.progress.h

@@ -33,20 +33,6 @@ impl Increment {
     pub const NONE: Self =
         Self { tangents: [0.0; 2], position: Vector3::new(0.0, 0.0, 0.0), turn: Turn::NONE };
 
-    /// A guess of the next one, in a step `ratio` times as long: that it changes as it did from the one before.
-    pub fn beyond(&self, before: &Self, ratio: f64) -> Self {
-        let now = self.scaled(ratio);
-        let further = ratio * ratio;
-        let beyond = |now: f64, last: f64, before: f64| now + further * (last - before);
-        Self {
-            tangents: std::array::from_fn(|i| {
-                beyond(now.tangents[i], self.tangents[i], before.tangents[i])
-            }),
-            position: now.position + (self.position - before.position) * further,
-            turn: Turn::of_vector(now.turn.v + (self.turn.v - before.turn.v) * further),
-        }
-    }
-
     /// The same in a step `ratio` times as long.
     pub fn scaled(&self, ratio: f64) -> Self {
         Self {
@@ -94,6 +80,39 @@ impl Node {
                 let first = f64::atan2(about.dot(&from.cross(&to)), from.dot(&to));
                 let turned = Quaternion::from_axis_angle(about, first).product(home);
                 all.angles = [first, angle(turned.conjugate().product(relative), outboard_axis)];
+            }
+        }
+        all
+    }
+
+    /// An increment by column: tangents of half angles, ways, the vector part of a turn.
+    #[inline]
+    pub fn ways(&self, of: &Increment, ways: &mut [f64]) {
+        match self.kind {
+            Kind::Fixed => {}
+            Kind::Revolute | Kind::Prismatic => ways[0] = of.tangents[0],
+            Kind::Universal => ways.copy_from_slice(&of.tangents),
+            Kind::Spherical => ways.copy_from_slice(of.turn.v.as_slice()),
+            Kind::Floating => {
+                ways[..3].copy_from_slice(of.position.as_slice());
+                ways[3..].copy_from_slice(of.turn.v.as_slice());
+            }
+        }
+    }
+
+    /// The increment that these are of.
+    #[inline]
+    pub fn increment(&self, ways: &[f64; 6]) -> Increment {
+        let mut all = Increment::NONE;
+        let [a, b, c, d, e, f] = *ways;
+        match self.kind {
+            Kind::Fixed => {}
+            Kind::Revolute | Kind::Prismatic => all.tangents[0] = a,
+            Kind::Universal => all.tangents = [a, b],
+            Kind::Spherical => all.turn = Turn::of_vector(Vector3::new(a, b, c)),
+            Kind::Floating => {
+                all.position = Vector3::new(a, b, c);
+                all.turn = Turn::of_vector(Vector3::new(d, e, f));
             }
         }
         all

@@ -8,9 +8,9 @@
 use super::bond::Bond;
 use super::end::End;
 use super::node::{Kind, Node, Place};
-use super::stiffness::{Column, Pair, Stiffness};
+use super::stiffness::{Column, Pair, Stiffness, skew_times, times_skew};
 use super::trial::{Touch, Trial};
-use super::turn::skew;
+use super::turn::{Turn, skew};
 use nalgebra::{Matrix3, Vector3};
 
 /// The eliminated equations.
@@ -29,14 +29,12 @@ pub(super) struct Elimination {
     bonds: Vec<Option<Bond>>,
 }
 
+/// Axes and arms at a step's beginning and at a trial's end.
 #[derive(Clone, Copy, Debug)]
 struct Geometry {
     axes: [[Vector3<f64>; 3]; 2],
     from_inboard: [Vector3<f64>; 2],
 }
-
-const UNITS: [Vector3<f64>; 3] =
-    [Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 1.0, 0.0), Vector3::new(0.0, 0.0, 1.0)];
 
 impl Elimination {
     pub fn new(nodes: usize, columns: usize, strikers: usize) -> Self {
@@ -66,15 +64,16 @@ impl Elimination {
         trial: &Trial,
         h: f64,
     ) -> Result<(), usize> {
-        self.stiffness.fill(Stiffness::ZERO);
+        for (k, part) in self.stiffness.iter_mut().enumerate() {
+            *part = own_stiffness(&nodes[k], &places[k], &trial.ends[k], &trial.touches, h);
+        }
         for (number, strike) in trial.strikes.iter().enumerate() {
             let k = strike.link;
             self.bonds[number] = None;
             match strike.stiffness(h) {
-                None => self.factor_node(k, nodes, places, trial, h)?,
+                None => self.factor_node(k, nodes, places, trial)?,
                 Some(contact) => {
-                    let part = &mut self.stiffness[k];
-                    add_own(part, &nodes[k], &places[k], &trial.ends[k], &trial.touches, h);
+                    let part = &self.stiffness[k];
                     let arms = strike.arms(places, &trial.ends);
                     let (bond, passed) = Bond::new(strike.struck, arms, part, &contact).ok_or(k)?;
                     self.stiffness[bond.to].add_shifted(&passed, &arms[0], &arms[1]);
@@ -83,7 +82,7 @@ impl Elimination {
             }
         }
         for k in (0..nodes.len() - trial.strikes.len()).rev() {
-            self.factor_node(k, nodes, places, trial, h)?;
+            self.factor_node(k, nodes, places, trial)?;
         }
         Ok(())
     }
@@ -95,16 +94,18 @@ impl Elimination {
         nodes: &[Node],
         places: &[Place],
         trial: &Trial,
-        h: f64,
     ) -> Result<(), usize> {
         let (node, place, end) = (&nodes[k], &places[k], &trial.ends[k]);
+        let (turn_i, moved_i) = match node.inboard {
+            Some(i) => (trial.ends[i].turn, trial.ends[i].displacement),
+            None => (Turn::NONE, Vector3::zeros()),
+        };
         let geometry = Geometry {
-            axes: [place.axes, end.axes],
-            from_inboard: [place.from_inboard, end.from_inboard],
+            axes: [place.axes, node.axes_at_end(place, &turn_i, &end.turn)],
+            from_inboard: [place.from_inboard, place.from_inboard + end.displacement - moved_i],
         };
         self.geometry[k] = geometry;
         let part = &mut self.stiffness[k];
-        add_own(part, node, place, end, &trial.touches, h);
         let first = node.columns.start;
         let slopes = &trial.own_slopes[node.columns.clone()];
         let mut keep = |c: usize, column: Option<Column>| match column {
@@ -129,15 +130,12 @@ impl Elimination {
             }
             Kind::Spherical => {
                 for i in 0..3 {
-                    keep(i, part.eliminate_turn(&UNITS[i], &end[i], 0.0))?;
+                    keep(i, part.eliminate_ball_turn(i, &end[i]))?;
                 }
             }
             Kind::Floating => {
-                for i in 0..3 {
-                    keep(i, part.eliminate_shift(&UNITS[i], &UNITS[i], 0.0))?;
-                }
-                for i in 0..3 {
-                    keep(3 + i, part.eliminate_turn(&UNITS[i], &UNITS[i], 0.0))?;
+                for i in 0..6 {
+                    keep(i, part.eliminate_free(i))?;
                 }
             }
         }
@@ -158,21 +156,23 @@ impl Elimination {
         own: impl Fn(usize) -> f64,
         corrections: &mut [f64],
     ) {
-        self.impulses.fill(Pair::ZERO);
+        for (k, z) in self.impulses.iter_mut().enumerate() {
+            *z = impulse(k);
+        }
         let tree = nodes.len() - self.bonds.len();
         for k in tree..nodes.len() {
             let Some(bond) = &self.bonds[k - tree] else {
-                self.collect(k, nodes, impulse(k), &own);
+                self.collect(k, nodes, &own);
                 continue;
             };
-            let mut z = impulse(k);
+            let mut z = self.impulses[k];
             let first = nodes[k].columns.start;
             z.subtract(&Pair::of_columns(|c| own(first + c)));
             self.impulses[bond.to].add_shifted(&bond.passed(&z), &bond.arms[0]);
             self.impulses[k] = z;
         }
         for k in (0..tree).rev() {
-            self.collect(k, nodes, impulse(k), &own);
+            self.collect(k, nodes, &own);
         }
         for k in 0..tree {
             self.distribute(k, nodes, corrections);
@@ -191,30 +191,36 @@ impl Elimination {
 
     /// Takes the impulse on a node, with what is outboard, to its columns, and hands the rest inboard.
     #[inline(always)]
-    fn collect(&mut self, k: usize, nodes: &[Node], on_body: Pair, own: &impl Fn(usize) -> f64) {
+    fn collect(&mut self, k: usize, nodes: &[Node], own: &impl Fn(usize) -> f64) {
         let node = &nodes[k];
-        let mut z = on_body;
-        z.linear += self.impulses[k].linear;
-        z.angular += self.impulses[k].angular;
-        let axes = &self.geometry[k].axes[0];
+        let mut z = self.impulses[k];
+        let Geometry { axes: [axes, _], from_inboard: [arm, _] } = &self.geometry[k];
         let first = node.columns.start;
-        for c in node.columns.clone() {
-            let along = match (node.kind, c - first) {
-                (Kind::Prismatic, i) => axes[i].dot(&z.linear),
-                (Kind::Floating, i @ 0..3) => z.linear[i],
-                (Kind::Floating, i) => z.angular[i - 3],
-                (_, i) => axes[i].dot(&z.angular),
-            };
-            let left = along - own(c);
-            self.left[c] = left;
-            let column = &self.columns[c];
+        let columns = &self.columns[node.columns.clone()];
+        let all_left = &mut self.left[node.columns.clone()];
+        let mut take = |i: usize, along: f64, z: &mut Pair| {
+            let (left, column) = (along - own(first + i), &columns[i]);
+            all_left[i] = left;
             let share = left * column.inverse;
             z.linear -= column.impulse.linear * share;
             z.angular -= column.impulse.angular * share;
+        };
+        match node.kind {
+            Kind::Fixed => {}
+            Kind::Revolute => take(0, axes[0].dot(&z.angular), &mut z),
+            Kind::Prismatic => take(0, axes[0].dot(&z.linear), &mut z),
+            Kind::Universal => {
+                take(0, axes[0].dot(&z.angular), &mut z);
+                take(1, axes[1].dot(&z.angular), &mut z);
+            }
+            Kind::Spherical => (0..3).for_each(|i| take(i, z.angular[i], &mut z)),
+            Kind::Floating => {
+                (0..3).for_each(|i| take(i, z.linear[i], &mut z));
+                (0..3).for_each(|i| take(3 + i, z.angular[i], &mut z));
+            }
         }
         if let Some(inboard) = node.inboard {
-            let arm = self.geometry[k].from_inboard[0];
-            self.impulses[inboard].add_shifted(&z, &arm);
+            self.impulses[inboard].add_shifted(&z, arm);
         }
     }
 
@@ -222,24 +228,37 @@ impl Elimination {
     #[inline(always)]
     fn distribute(&mut self, k: usize, nodes: &[Node], corrections: &mut [f64]) {
         let node = &nodes[k];
-        let Geometry { axes, from_inboard } = &self.geometry[k];
+        let Geometry { axes: [_, axes], from_inboard: [_, arm] } = &self.geometry[k];
         let mut motion = match node.inboard {
             None => Pair::ZERO,
             Some(i) => {
                 let Pair { linear, angular } = self.motions[i];
-                Pair { linear: linear + angular.cross(&from_inboard[1]), angular }
+                Pair { linear: linear + angular.cross(arm), angular }
             }
         };
-        let first = node.columns.start;
-        for c in node.columns.clone().rev() {
-            let column = &self.columns[c];
-            let by = -(self.left[c] + column.answer.dot(&motion)) * column.inverse;
-            corrections[c] = by;
-            match (node.kind, c - first) {
-                (Kind::Prismatic, i) => motion.linear += axes[1][i] * by,
-                (Kind::Floating, i @ 0..3) => motion.linear[i] += by,
-                (Kind::Floating, i) => motion.angular[i - 3] += by,
-                (_, i) => motion.angular += axes[1][i] * by,
+        let columns = &self.columns[node.columns.clone()];
+        let left = &self.left[node.columns.clone()];
+        let corrections = &mut corrections[node.columns.clone()];
+        let mut give = |i: usize, motion: &Pair| {
+            let column = &columns[i];
+            let by = -(left[i] + column.answer.dot(motion)) * column.inverse;
+            corrections[i] = by;
+            by
+        };
+        match node.kind {
+            Kind::Fixed => {}
+            Kind::Revolute => motion.angular += axes[0] * give(0, &motion),
+            Kind::Prismatic => motion.linear += axes[0] * give(0, &motion),
+            Kind::Universal => {
+                motion.angular += axes[1] * give(1, &motion);
+                motion.angular += axes[0] * give(0, &motion);
+            }
+            Kind::Spherical => {
+                (0..3).rev().for_each(|i| motion.angular += axes[i] * give(i, &motion));
+            }
+            Kind::Floating => {
+                (0..3).rev().for_each(|i| motion.angular[i] += give(3 + i, &motion));
+                (0..3).rev().for_each(|i| motion.linear[i] += give(i, &motion));
             }
         }
         self.motions[k] = motion;
@@ -253,19 +272,18 @@ impl Elimination {
 
 /// A body's own stiffness, and that of the floor under it.
 #[inline(always)]
-fn add_own(part: &mut Stiffness, node: &Node, place: &Place, end: &End, touches: &[Touch], h: f64) {
+fn own_stiffness(node: &Node, place: &Place, end: &End, touches: &[Touch], h: f64) -> Stiffness {
     // With the end turned by δφ more: δ(c, v) = ½ (−v·δφ, N δφ), N = c 1 − v̂, so that
     // ∂L/∂φ = 1/h [(c I − (I v)^ + v̂ I) N − (I v) vᵀ].
     let (c, v, iv) = (end.turn.c, &end.turn.v, &end.inertia_turn);
-    let v_hat = skew(v);
-    let left = place.inertia * c - skew(iv) + v_hat * place.inertia;
-    let n = Matrix3::from_diagonal_element(c) - v_hat;
-    let turning = (left * n - iv * v.transpose()) / h;
-    part.add_body(node.mass / h, &turning, &place.to_center, &end.to_center);
+    let left = place.inertia * c - skew(iv) + skew_times(v, &place.inertia);
+    let turning = (left * c - times_skew(&left, v) - iv * v.transpose()) / h;
+    let mut part = Stiffness::of_body(node.mass / h, &turning, &place.to_center, &end.to_center);
     for touch in &touches[node.sites.clone()] {
         if touch.force.slope != Matrix3::zeros() {
             let k = touch.force.slope * (-0.5 * h);
             part.add_point(&k, &(place.to_center + touch.begin), &(end.to_center + touch.end));
         }
     }
+    part
 }

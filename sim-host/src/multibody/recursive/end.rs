@@ -11,8 +11,6 @@ pub(super) struct End {
     /// Of the reference point.
     pub displacement: Vector3<f64>,
     pub to_center: Vector3<f64>,
-    pub from_inboard: Vector3<f64>,
-    pub axes: [Vector3<f64>; 3],
     /// `d`
     pub velocity: Vector3<f64>,
     /// `I v`
@@ -32,8 +30,6 @@ impl End {
             turn: Turn::NONE,
             displacement: zero,
             to_center: zero,
-            from_inboard: zero,
-            axes: [zero; 3],
             velocity: zero,
             inertia_turn: zero,
             spin: zero,

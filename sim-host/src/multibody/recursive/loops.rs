@@ -8,9 +8,10 @@
 //! ```
 //! Cost: one solution of the tree for each constraint, and elimination of a small dense matrix.
 
+use super::super::BodyState;
 use super::super::closure::Closure;
 use super::super::system::{System, WORLD};
-use super::super::{BodyState, Rows};
+use super::closing_rows::{ClosingRow, Seen, closing_rows};
 use super::elimination::Elimination;
 use super::node::{Node, Place};
 use super::stiffness::Pair;
@@ -29,6 +30,8 @@ pub(super) struct Loops {
     /// Pivots in their order, rows and columns; those that are none are left out.
     pivots: Vec<(usize, usize)>,
     columns: usize,
+    /// Impulses of closing joints' motors at a step's beginning, by body.
+    driven: Vec<(usize, Pair)>,
 }
 
 /// One constraint: its bodies, its derivative at the beginning and at the end, and its error there.
@@ -40,6 +43,8 @@ struct Row {
     error: f64,
 }
 
+/// Error of a constraint that its evaluation makes: some ten terms of the size of a machine, m.
+const ROUND_OFF: f64 = 2e-15;
 /// Pivots that are no more than round-off beside the first: constraints that say what others say already.
 const DEPENDENT: f64 = 1e-9;
 
@@ -60,6 +65,7 @@ impl Loops {
             schur: vec![0.0; n * n],
             pivots: Vec::with_capacity(n),
             columns,
+            driven: Vec::with_capacity(2 * system.closing_motors().len()),
         }
     }
 
@@ -74,7 +80,13 @@ impl Loops {
             let place = &places[k];
             (body_state(&place.center, place.orientation.to_array()), place.to_center)
         };
-        self.each(closures, state, |row, pairs, _| row.begin = pairs);
+        self.each(closures, state, |row, found| row.begin = found.pairs);
+    }
+
+    /// Impulses of closing joints' motors at the beginning of a step.
+    pub fn drive(&mut self, impulses: impl Iterator<Item = (usize, Pair)>) {
+        self.driven.clear();
+        self.driven.extend(impulses);
     }
 
     /// Rows and errors at a trial's end.
@@ -86,9 +98,9 @@ impl Loops {
             let q = end.turn.turned(place.orientation.to_array());
             (body_state(&center, q), end.to_center)
         };
-        self.each(closures, state, |row, pairs, error| {
-            row.end = pairs;
-            row.error = error;
+        self.each(closures, state, |row, found| {
+            row.end = found.pairs;
+            row.error = found.error;
         });
     }
 
@@ -97,41 +109,40 @@ impl Loops {
     fn each(
         &mut self,
         closures: &[Closure],
-        state: impl Fn(usize) -> (BodyState, Vector3<f64>),
-        mut fill: impl FnMut(&mut Row, [Pair; 2], f64),
+        state: impl Fn(usize) -> Seen,
+        fill: impl Fn(&mut Row, &ClosingRow),
     ) {
         let mut next = 0;
         for closure in closures {
-            let (x_o, arm_o) = state(closure.outboard);
-            let (x_i, arm_i) = closure.inboard.map_or((WORLD, Vector3::zeros()), &state);
-            let Rows { error, outboard, inboard } = closure.rows(&x_o, &x_i);
-            for c in 0..closure.constraints() {
-                let pairs =
-                    [tangent(&outboard[c], &x_o, &arm_o), tangent(&inboard[c], &x_i, &arm_i)];
-                fill(&mut self.rows[next], pairs, error[c]);
+            let outboard = state(closure.outboard);
+            let inboard = closure.inboard.map_or((WORLD, Vector3::zeros()), &state);
+            let found = closing_rows(closure, &outboard, &inboard);
+            for row in &found[..closure.constraints()] {
+                fill(&mut self.rows[next], row);
                 next += 1;
             }
         }
     }
 
     /// The bodies that constraints act on, each once for each constraint, with the impulse
-    /// there at the beginning: `G⁻ᵀ λ`.
+    /// there at the beginning: `G⁻ᵀ λ`, and that of motors.
     pub fn impulses<'a>(
         &'a self,
         multipliers: &'a [f64],
     ) -> impl Iterator<Item = (usize, Pair)> + 'a {
-        self.rows.iter().zip(multipliers).flat_map(|(row, m)| {
+        let held = self.rows.iter().zip(multipliers).flat_map(|(row, m)| {
             row.bodies.iter().zip(&row.begin).filter_map(move |(body, pair)| {
                 let scaled = Pair { linear: pair.linear * *m, angular: pair.angular * *m };
                 body.map(|k| (k, scaled))
             })
-        })
+        });
+        held.chain(self.driven.iter().copied())
     }
 
-    /// Largest error of a constraint.
+    /// Largest error of a constraint, beyond that of rounding.
     pub fn largest_error(&self) -> f64 {
         self.rows.iter().fold(0.0, |m, row| {
-            let e = row.error.abs();
+            let e = row.error.abs() - ROUND_OFF;
             if e > m || e.is_nan() { e } else { m }
         })
     }
@@ -150,11 +161,13 @@ impl Loops {
         for j in 0..n {
             let row = self.rows[j];
             let unit = |k: usize| {
+                let [outboard, inboard] = row.bodies;
                 let mut sum = Pair::ZERO;
-                for (body, pair) in row.bodies.iter().zip(&row.begin) {
-                    if *body == Some(k) {
-                        sum.subtract(pair);
-                    }
+                if outboard == Some(k) {
+                    sum.subtract(&row.begin[0]);
+                }
+                if inboard == Some(k) {
+                    sum.subtract(&row.begin[1]);
                 }
                 sum
             };
@@ -242,28 +255,12 @@ pub(super) const MOST: usize = 96;
 impl Row {
     /// `G⁺` along a motion of all bodies.
     fn along(&self, motions: &[Pair]) -> f64 {
-        self.bodies
-            .iter()
-            .zip(&self.end)
-            .filter_map(|(body, pair)| body.map(|k| pair.dot(&motions[k])))
-            .sum()
+        let [outboard, inboard] = self.bodies;
+        outboard.map_or(0.0, |k| self.end[0].dot(&motions[k]))
+            + inboard.map_or(0.0, |k| self.end[1].dot(&motions[k]))
     }
 }
 
 fn body_state(center: &Vector3<f64>, q: [f64; 4]) -> BodyState {
     [center.x, center.y, center.z, q[0], q[1], q[2], q[3]]
-}
-
-/// A row in seven coordinates as one along place and turn (world axes) about a reference point, from which
-/// `arm` leads to the centre of mass: `q̇ = ½ (0, ω) ⋆ q`.
-fn tangent(row: &BodyState, x: &BodyState, arm: &Vector3<f64>) -> Pair {
-    let linear = Vector3::new(row[0], row[1], row[2]);
-    let [s, a, b, c] = [x[3], x[4], x[5], x[6]];
-    let [g, i, j, k] = [row[3], row[4], row[5], row[6]];
-    let turning = Vector3::new(
-        -a * g + s * i - c * j + b * k,
-        -b * g + c * i + s * j - a * k,
-        -c * g - b * i + a * j + s * k,
-    ) * 0.5;
-    Pair { linear, angular: turning + arm.cross(&linear) }
 }

@@ -7,17 +7,23 @@
 //!      └ moved ─ Increment ◄─ corrections ◄─ Elimination ◄── stiffness ◄──────┘
 //! ```
 
+mod accept;
 mod bond;
 mod checkpoint;
+mod closing_rows;
 mod coordinates;
+mod driven_loops;
 mod elimination;
 mod end;
 mod forecast;
+mod guess;
+mod held;
 mod loops;
 mod motors;
 pub(super) mod newton;
 mod node;
 mod rates;
+mod readings;
 mod simulation;
 mod stages;
 mod step;
@@ -25,6 +31,7 @@ mod stiffness;
 mod strike;
 mod trial;
 mod turn;
+mod watched;
 
 pub use checkpoint::Checkpoint;
 pub use forecast::StepForecast;

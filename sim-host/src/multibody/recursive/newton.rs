@@ -1,9 +1,7 @@
 //! One step: Newton's method with a line search, and shorter steps where it fails.
 
-use super::node::Place;
 use super::simulation::Simulation;
 use super::step::Step;
-use super::trial::Trial;
 use crate::integrators::{Progress, StepError, StepFailure};
 use crate::newton::NewtonFailure;
 
@@ -83,15 +81,15 @@ impl Simulation {
 
     /// Goes on by `h`.
     pub(super) fn advance(&mut self, h: f64) -> Result<(), StepError> {
-        let ratio = h / self.at.last_h;
-        let [last, before] = &self.at.last;
-        for (k, guess) in self.trial.increments.iter_mut().enumerate() {
-            *guess = last[k].beyond(&before[k], ratio);
+        if h != self.at.last_h {
+            self.at.guess.scale(h / self.at.last_h);
         }
+        self.at.guess.make(&self.nodes, &mut self.trial.increments);
         self.trial.begin(&self.system, &self.nodes, &self.places, self.at.fastest, h);
         self.trial.begin_motors(&self.motors, &self.loads);
         if !self.system.closures().is_empty() {
             self.loops.begin(self.system.closures(), &self.places);
+            self.loops.drive(self.driven.iter().flat_map(|driven| driven.impulses(h)));
         }
         let mut error = self.evaluate(h);
         let mut iterations = 0;
@@ -149,8 +147,7 @@ impl Simulation {
             return Err(self.at.progress.error(StepFailure::WrongBranch));
         }
         self.accept(h);
-        if let Some(motors) = self.motors.iter().find(|motors| motors.is_locked()) {
-            let joint = motors.link;
+        if let Some(joint) = self.locked() {
             return Err(self.at.progress.error(StepFailure::GimbalLock { joint }));
         }
         self.at.progress.iterated(iterations, error);
@@ -223,59 +220,6 @@ impl Simulation {
             sum += relative * relative;
         }
         sum.sqrt() / self.at.fastest.max(f64::MIN_POSITIVE) + loop_error
-    }
-
-    /// Goes on to the trial's end.
-    fn accept(&mut self, h: f64) {
-        let world = Place::world();
-        for (k, node) in self.nodes.iter().enumerate() {
-            let inboard = node.inboard.map_or(&world, |i| &self.places[i]);
-            self.at.coordinates[k] =
-                node.moved(&self.at.coordinates[k], &self.trial.increments[k], inboard);
-        }
-        self.at.last.swap(0, 1);
-        self.at.last[0].copy_from_slice(&self.trial.increments);
-        if h != self.at.last_h {
-            for before in &mut self.at.last[1] {
-                *before = before.scaled(h / self.at.last_h);
-            }
-        }
-        let ratio = h / self.at.last_h;
-        self.at.last_h = h;
-        self.find_places();
-        for (motors, turned) in self.motors.iter().zip(&mut self.at.turned) {
-            turned.go_on(motors.angles(), ratio);
-        }
-        self.trial.end_motors(&self.motors, &self.loads, h);
-        let coordinates = &self.at.coordinates;
-        let step = Step {
-            system: &self.system,
-            nodes: &self.nodes,
-            places: &self.places,
-            angles: &|k| coordinates[k].angles[0],
-            momenta: &[],
-            memories: &[],
-            strikes: &[],
-            loads: &self.loads,
-            h,
-        };
-        for k in 0..self.nodes.len() {
-            self.trial.ends[k].all = self.trial.end_momentum(&step, k, &self.places[k]);
-        }
-        let Trial { strikes, ends, .. } = &mut self.trial;
-        if !strikes.is_empty() {
-            for (strike, force) in strikes.iter().zip(&mut self.at.strike_forces) {
-                strike.add_end_impulses(&self.places, ends, h);
-                *force = strike.remember(&mut self.at.strikes).into();
-            }
-        }
-        let own = std::mem::take(&mut self.trial.own_impulses);
-        self.gather_momenta(|c| own[c]);
-        self.trial.own_impulses = own;
-        for (k, touch) in self.trial.touches.iter().enumerate() {
-            self.at.memories[k] = touch.force.point;
-            self.at.forces[k] = touch.force.force.into();
-        }
     }
 }
 

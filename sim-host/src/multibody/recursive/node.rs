@@ -4,6 +4,7 @@ use super::super::JointConstraint;
 use super::super::system::{Link, System};
 use super::coordinates::Coordinates;
 use super::stiffness::Pair;
+use super::turn::Turn;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 use surefoot::spatial::Quaternion;
@@ -165,6 +166,22 @@ impl Node {
         };
         let inertia = rotation * Matrix3::from_diagonal(&self.inertia) * rotation.transpose();
         Place { orientation, rotation, center, to_center, from_inboard, axes, inertia }
+    }
+
+    /// The columns' axes at a step's end, from the turns of the inboard and the outboard body.
+    #[inline]
+    pub fn axes_at_end(&self, place: &Place, inboard: &Turn, outboard: &Turn) -> [Vector3<f64>; 3] {
+        let mut axes = place.axes;
+        match self.kind {
+            Kind::Fixed | Kind::Floating => {}
+            Kind::Revolute | Kind::Prismatic => axes[0] = inboard.rotate(&axes[0]),
+            Kind::Universal => {
+                axes[0] = inboard.rotate(&axes[0]);
+                axes[1] = outboard.rotate(&axes[1]);
+            }
+            Kind::Spherical => axes = axes.map(|axis| inboard.rotate(&axis)),
+        }
+        axes
     }
 
     /// Adds the joint's own motion at these rates to its inboard body's.

@@ -3,6 +3,7 @@
 use super::super::body::BodyState;
 use super::coordinates::Increment;
 use super::newton::singular;
+use super::node::Place;
 use super::simulation::Simulation;
 use super::stiffness::Pair;
 use super::strike::Strike;
@@ -61,9 +62,8 @@ impl Simulation {
             let place = &self.places[k];
             let end = &mut self.trial.ends[k];
             end.turn = Turn::NONE;
+            end.displacement = Vector3::zeros();
             end.to_center = place.to_center;
-            end.from_inboard = place.from_inboard;
-            end.axes = place.axes;
             end.inertia_turn = Vector3::zeros();
         }
         for touch in &mut self.trial.touches {
@@ -151,4 +151,12 @@ impl Simulation {
             .sum();
         Ok((0.5 * along, weight + in_joints + in_floor + in_boxes))
     }
+}
+
+/// `ω = 2 q̇ ⋆ q̄`, world axes.
+pub(super) fn angular_velocity(rate: &BodyState, place: &Place) -> Vector3<f64> {
+    let q = place.orientation.to_array();
+    let turning = Turn { c: rate[3], v: Vector3::new(rate[4], rate[5], rate[6]) }
+        .after(&Turn { c: q[0], v: -Vector3::new(q[1], q[2], q[3]) });
+    turning.v * 2.0
 }

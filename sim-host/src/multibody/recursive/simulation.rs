@@ -5,14 +5,17 @@ use super::super::system::{System, WORLD};
 use super::super::system_error::SystemError;
 use super::checkpoint::Checkpoint;
 use super::coordinates::{Coordinates, Increment};
+use super::driven_loops::DrivenLoop;
 use super::elimination::Elimination;
+use super::guess::Guess;
+use super::held::Hold;
 use super::loops::{Loops, MOST};
 use super::motors::{Motors, Turned};
 use super::node::{Kind, Node, Place, nodes};
+use super::rates::angular_velocity;
 use super::step::project;
 use super::stiffness::Pair;
 use super::trial::{Loads, Trial};
-use super::turn::Turn;
 use crate::contact::{BoxPoint, ContactPoint};
 use crate::integrators::Progress;
 use nalgebra::Vector3;
@@ -29,6 +32,10 @@ pub struct Simulation {
     pub(super) places: Vec<Place>,
     pub(super) loads: Loads,
     pub(super) motors: Vec<Motors>,
+    pub(super) driven: Vec<DrivenLoop>,
+    /// Links whose motion is observed, and links that hang from the world.
+    pub(super) watched: Vec<usize>,
+    pub(super) hanging: Vec<usize>,
     /// What a column's momentum is in speed, 1/kg or 1/(kg·m).
     pub(super) weights: Vec<f64>,
     pub(super) trial: Trial,
@@ -71,6 +78,7 @@ impl Simulation {
         }
         let trial = Trial::new(&system, &nodes, columns);
         let motors = Motors::all(&system, &nodes);
+        let driven = DrivenLoop::all(&system);
         let at = Checkpoint {
             coordinates,
             momenta: vec![0.0; columns],
@@ -81,8 +89,11 @@ impl Simulation {
             forces: vec![[0.0; 3]; system.sites().len()],
             strikes: vec![BoxPoint::default(); trial.strikes.last().map_or(0, |s| s.points.end)],
             strike_forces: vec![[0.0; 3]; trial.strikes.len()],
-            turned: vec![Turned::default(); motors.len()],
+            turned: vec![Turned::default(); motors.len() + driven.len()],
+            watched: Vec::new(),
+            holds: Vec::new(),
             fastest: system.gravity().abs() * h,
+            guess: Guess::new(columns),
             progress: Progress::new(h),
         };
         let mut simulation = Self {
@@ -92,6 +103,9 @@ impl Simulation {
             splits: true,
             places: vec![Place::world(); nodes.len()],
             motors,
+            driven,
+            watched: Vec::new(),
+            hanging: Vec::new(),
             loads: Loads { torques: vec![0.0; columns], wrenches: vec![Pair::ZERO; nodes.len()] },
             base: trial.increments.clone(),
             base_multipliers: vec![0.0; loops.len()],
@@ -102,9 +116,12 @@ impl Simulation {
             nodes,
             system,
         };
+        simulation.hanging = simulation.hanging();
+        simulation.at.holds = vec![Hold::NOTHING; simulation.hanging.len()];
+        simulation.saved.holds = simulation.at.holds.clone();
         simulation.find_places();
-        if let Some(motors) = simulation.motors.iter().find(|motors| motors.is_locked()) {
-            return Err(SystemError::GimbalLock { link: motors.link });
+        if let Some(link) = simulation.locked() {
+            return Err(SystemError::GimbalLock { link });
         }
         simulation.set_rates(rates);
         Ok(simulation)
@@ -150,23 +167,6 @@ impl Simulation {
         Ok(())
     }
 
-    /// A body's state.
-    pub fn state(&self, link: usize) -> BodyState {
-        let place = &self.places[link];
-        let [s, x, y, z] = place.orientation.to_array();
-        [place.center.x, place.center.y, place.center.z, s, x, y, z]
-    }
-
-    /// All bodies' states.
-    pub fn states(&self) -> Vec<BodyState> {
-        (0..self.nodes.len()).map(|k| self.state(k)).collect()
-    }
-
-    /// Angle of a joint, rad; the way of a prismatic one, m; the first of a universal one. Zero for others.
-    pub fn angle(&self, link: usize) -> f64 {
-        self.at.coordinates[link].angles[0]
-    }
-
     /// Holds a torque (N·m) in a revolute joint, or a force (N) in a prismatic one, until it is set again.
     /// Other joints have no motor.
     pub fn set_torque(&mut self, link: usize, torque: f64) {
@@ -180,31 +180,6 @@ impl Simulation {
         self.loads.wrenches[link] = Pair { linear: force.into(), angular: torque.into() };
     }
 
-    /// Memories of the contact sites, in the system's order.
-    pub fn contacts(&self) -> &[ContactPoint] {
-        &self.at.memories
-    }
-
-    /// Mean forces on the contact sites in the last step, N, world frame.
-    pub fn contact_forces(&self) -> &[[f64; 3]] {
-        &self.at.forces
-    }
-
-    /// Memories of strikers' points, striker after striker.
-    pub fn strikes(&self) -> &[BoxPoint] {
-        &self.at.strikes
-    }
-
-    /// Mean forces of the bodies that they strike on strikers in the last step, N, world frame.
-    pub fn strike_forces(&self) -> &[[f64; 3]] {
-        &self.at.strike_forces
-    }
-
-    /// Impulses of the loops' constraints in the last step, closure after closure: N·s for points.
-    pub fn loop_impulses(&self) -> &[f64] {
-        &self.at.multipliers
-    }
-
     pub(super) fn find_places(&mut self) {
         let world = Place::world();
         for k in 0..self.nodes.len() {
@@ -216,18 +191,23 @@ impl Simulation {
             let inboard = self.nodes[motors.link].inboard.map_or(&world, |i| &self.places[i]);
             motors.find(self.at.coordinates[motors.link].orientation, inboard);
         }
+        for driven in &mut self.driven {
+            driven.find(&self.places);
+        }
+    }
+
+    /// A link whose motors are locked: the middle one of three is near a quarter turn.
+    pub(super) fn locked(&self) -> Option<usize> {
+        let in_tree = self.motors.iter().find(|motors| motors.is_locked());
+        let in_loops = || self.driven.iter().find_map(DrivenLoop::locked);
+        in_tree.map(|motors| motors.link).or_else(in_loops)
     }
 
     /// Momenta of these rates, and a first guess of the increments.
     fn set_rates(&mut self, rates: &[BodyState]) {
         for (k, rate) in rates.iter().enumerate() {
             let (node, place) = (&self.nodes[k], &self.places[k]);
-            let q = place.orientation.to_array();
-            // ω = 2 q̇ ⋆ q̄
-            let omega = Turn { c: rate[3], v: Vector3::new(rate[4], rate[5], rate[6]) }
-                .after(&Turn { c: q[0], v: -Vector3::new(q[1], q[2], q[3]) })
-                .v
-                * 2.0;
+            let omega = angular_velocity(rate, place);
             let v = Vector3::new(rate[0], rate[1], rate[2]);
             self.at.fastest = self.at.fastest.max(v.abs().max());
             let linear = v * node.mass;
@@ -235,7 +215,14 @@ impl Simulation {
             self.trial.ends[k].all = Pair { linear, angular };
         }
         self.gather_momenta(|_| 0.0);
+        self.note_momenta();
         let h = self.at.progress.h;
+        let turning: Vec<Vector3<f64>> =
+            rates.iter().zip(&self.places).map(|(v, x)| angular_velocity(v, x)).collect();
+        let of_loops = &mut self.at.turned[self.motors.len()..];
+        for (driven, turned) in self.driven.iter().zip(of_loops) {
+            *turned = driven.start(&turning, h);
+        }
         // A singular inertia is the first step's to report.
         if self.column_rates().is_ok() {
             for (k, node) in self.nodes.iter().enumerate() {
@@ -243,6 +230,7 @@ impl Simulation {
                 self.at.last[0][k] = node.corrected(&Increment::NONE, by, h);
                 self.at.last[1][k] = self.at.last[0][k];
             }
+            self.at.guess.start(&self.nodes, &self.at.last[0]);
             for (motors, turned) in self.motors.iter().zip(&mut self.at.turned) {
                 motors.tell_rates(&mut self.corrections);
                 let c = motors.column;

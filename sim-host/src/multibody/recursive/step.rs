@@ -65,7 +65,7 @@ impl Trial {
     /// Evaluates (1) at the increments, with the loops' multipliers, if there are loops.
     pub fn evaluate(&mut self, step: &Step, loops: Option<(&Loops, &[f64])>) {
         for k in 0..step.nodes.len() {
-            self.ends[k] = self.end(step, k);
+            self.end(step, k);
         }
         if !self.strikes.is_empty() {
             for (strike, striker) in self.strikes.iter_mut().zip(step.system.strikers()) {
@@ -118,44 +118,31 @@ impl Trial {
         }
     }
 
+    /// Where a body is at the trial's end, and the impulse on it alone.
     #[inline]
-    fn end(&mut self, step: &Step, k: usize) -> End {
+    fn end(&mut self, step: &Step, k: usize) {
         let (node, place, by) = (&step.nodes[k], &step.places[k], &self.increments[k]);
         let (turn_i, moved_i) = match node.inboard {
             Some(i) => (self.ends[i].turn, self.ends[i].displacement),
             None => (Turn::NONE, Vector3::zeros()),
         };
-        let mut axes = place.axes;
         let mut displacement = moved_i + turn_i.displacement(&place.from_inboard);
         let turn = match node.kind {
             Kind::Fixed => turn_i,
-            Kind::Revolute => {
-                axes[0] = turn_i.rotate(&place.axes[0]);
-                turn_i.after(&Turn::cayley(place.axes[0] * by.tangents[0]))
-            }
+            Kind::Revolute => turn_i.after(&Turn::cayley(place.axes[0] * by.tangents[0])),
             Kind::Prismatic => {
-                axes[0] = turn_i.rotate(&place.axes[0]);
-                displacement += axes[0] * by.tangents[0];
+                displacement += turn_i.rotate(&place.axes[0]) * by.tangents[0];
                 turn_i
             }
-            Kind::Universal => {
-                let turn = turn_i
-                    .after(&Turn::cayley(place.axes[0] * by.tangents[0]))
-                    .after(&Turn::cayley(place.axes[1] * by.tangents[1]));
-                axes[0] = turn_i.rotate(&place.axes[0]);
-                axes[1] = turn.rotate(&place.axes[1]);
-                turn
-            }
-            Kind::Spherical => {
-                axes = axes.map(|axis| turn_i.rotate(&axis));
-                turn_i.after(&by.turn)
-            }
+            Kind::Universal => turn_i
+                .after(&Turn::cayley(place.axes[0] * by.tangents[0]))
+                .after(&Turn::cayley(place.axes[1] * by.tangents[1])),
+            Kind::Spherical => turn_i.after(&by.turn),
             Kind::Floating => {
                 displacement = by.position;
                 by.turn
             }
         };
-        let from_inboard = place.from_inboard + displacement - moved_i;
         let of_center = turn.displacement(&place.to_center);
         let h = step.h;
         let velocity = (displacement + of_center) / h;
@@ -180,18 +167,8 @@ impl Trial {
         }
         let own = Pair { linear, angular: angular + place.to_center.cross(&linear) };
         let to_center = place.to_center + of_center;
-        End {
-            turn,
-            displacement,
-            to_center,
-            from_inboard,
-            axes,
-            velocity,
-            inertia_turn,
-            spin,
-            own,
-            all: own,
-        }
+        self.ends[k] =
+            End { turn, displacement, to_center, velocity, inertia_turn, spin, own, all: own };
     }
 
     /// Momenta at the end, about the reference points there, for every body alone: `w⁺`. The arms are those

@@ -3,6 +3,7 @@
 
 use super::turn::skew;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use serde::{Deserialize, Serialize};
 
 /// Change of impulse and moment of impulse for a change of place and of orientation at the step's end.
 /// The arm of the moment is that of the beginning, the arm of the motion that of the end, so that the
@@ -16,7 +17,7 @@ pub(super) struct Stiffness {
 }
 
 /// Force and moment; or place and turn.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Pair {
     pub linear: Vector3<f64>,
     pub angular: Vector3<f64>,
@@ -113,35 +114,34 @@ impl Stiffness {
     /// A body's own about its reference point: mass over the step, and `turning` about the centre of
     /// mass, from which the arms lead.
     #[inline]
-    pub fn add_body(
-        &mut self,
+    pub fn of_body(
         mass: f64,
         turning: &Matrix3<f64>,
         begin: &Vector3<f64>,
         end: &Vector3<f64>,
-    ) {
-        for i in 0..3 {
-            self.force_by_place[(i, i)] += mass;
-        }
-        self.force_by_turn -= skew(end) * mass;
-        self.moment_by_place += skew(begin) * mass;
+    ) -> Self {
         // −m b̂ ê = m ((b·e) 1 − e bᵀ)
         let along = mass * begin.dot(end);
-        self.moment_by_turn += turning - (end * mass) * begin.transpose();
+        let mut moment_by_turn = turning - (end * mass) * begin.transpose();
         for i in 0..3 {
-            self.moment_by_turn[(i, i)] += along;
+            moment_by_turn[(i, i)] += along;
+        }
+        Self {
+            force_by_place: Matrix3::from_diagonal_element(mass),
+            force_by_turn: skew(&(end * -mass)),
+            moment_by_place: skew(&(begin * mass)),
+            moment_by_turn,
         }
     }
 
     /// A point's own, at the end of these arms.
     #[inline]
     pub fn add_point(&mut self, k: &Matrix3<f64>, begin: &Vector3<f64>, end: &Vector3<f64>) {
-        let by_turn = k * skew(end);
+        let by_turn = times_skew(k, end);
         self.force_by_place += k;
         self.force_by_turn -= by_turn;
-        let b = skew(begin);
-        self.moment_by_place += b * k;
-        self.moment_by_turn -= b * by_turn;
+        self.moment_by_place += skew_times(begin, k);
+        self.moment_by_turn -= skew_times(begin, &by_turn);
     }
 
     /// Another part's, whose point lies at the end of these arms.
@@ -191,6 +191,40 @@ impl Stiffness {
         self.eliminate(impulse, answer, pivot)
     }
 
+    /// Eliminates one of a ball's turns: about a unit axis at the beginning.
+    #[inline]
+    pub fn eliminate_ball_turn(&mut self, axis: usize, end: &Vector3<f64>) -> Option<Column> {
+        let impulse = Pair { linear: self.force_by_turn * end, angular: self.moment_by_turn * end };
+        let answer = Pair {
+            linear: self.moment_by_place.row(axis).transpose(),
+            angular: self.moment_by_turn.row(axis).transpose(),
+        };
+        self.eliminate(impulse, answer, impulse.angular[axis])
+    }
+
+    /// Eliminates one of a free body's six motions: along unit axes, then about them.
+    #[inline]
+    pub fn eliminate_free(&mut self, motion: usize) -> Option<Column> {
+        let i = motion % 3;
+        let [by_motion, of_motion] = if motion < 3 {
+            [
+                [&self.force_by_place, &self.moment_by_place],
+                [&self.force_by_place, &self.force_by_turn],
+            ]
+        } else {
+            [
+                [&self.force_by_turn, &self.moment_by_turn],
+                [&self.moment_by_place, &self.moment_by_turn],
+            ]
+        };
+        let [linear, angular] = by_motion.map(|m| m.column(i).into_owned());
+        let impulse = Pair { linear, angular };
+        let [linear, angular] = of_motion.map(|m| m.row(i).transpose());
+        let answer = Pair { linear, angular };
+        let pivot = if motion < 3 { answer.linear[i] } else { answer.angular[i] };
+        self.eliminate(impulse, answer, pivot)
+    }
+
     /// None where the pivot is no number, or none to divide by.
     #[inline]
     fn eliminate(&mut self, impulse: Pair, answer: Pair, pivot: f64) -> Option<Column> {
@@ -216,14 +250,14 @@ fn subtract_outer(m: &mut Matrix3<f64>, a: &Vector3<f64>, b: &Vector3<f64>) {
 
 /// `m r̂`: its rows are those of `m`, each × `r`.
 #[inline]
-fn times_skew(m: &Matrix3<f64>, r: &Vector3<f64>) -> Matrix3<f64> {
+pub(super) fn times_skew(m: &Matrix3<f64>, r: &Vector3<f64>) -> Matrix3<f64> {
     let [x, y, z] = [m.column(0), m.column(1), m.column(2)];
     Matrix3::from_columns(&[y * r.z - z * r.y, z * r.x - x * r.z, x * r.y - y * r.x])
 }
 
 /// `r̂ m`: its columns are `r ×` those of `m`.
 #[inline]
-fn skew_times(r: &Vector3<f64>, m: &Matrix3<f64>) -> Matrix3<f64> {
+pub(super) fn skew_times(r: &Vector3<f64>, m: &Matrix3<f64>) -> Matrix3<f64> {
     let column = |j: usize| r.cross(&m.column(j).into_owned());
     Matrix3::from_columns(&[column(0), column(1), column(2)])
 }

@@ -2,10 +2,12 @@
 
 use super::super::closure::ConstraintFunction;
 use super::super::joint::{Joint, JointConstraint, product, rotated};
-use super::super::{Body, Closing, Closure, Gimbal, Link, Site, Striker, System, SystemError};
+use super::super::{
+    Body, Closing, ClosingMotors, Closure, Gimbal, Link, Site, Striker, System, SystemError,
+};
 use super::composite::composite;
 use super::frame::Frame;
-use super::reduced::Reduced;
+use super::reduced::{Carrier, Reduced};
 use nalgebra::Vector3;
 use num_dual::Dual64;
 use std::sync::Arc;
@@ -20,6 +22,8 @@ pub(super) enum Fate {
     Joins { leader: usize, at: Frame },
     /// The same, but only its inertia is: nothing is told of where it is.
     Given { leader: usize, at: Frame },
+    /// It is part of the world, at this place in it.
+    Still { at: Frame },
 }
 
 impl Fate {
@@ -46,7 +50,7 @@ pub(super) fn rebuild(system: &System, fates: &[Fate]) -> Result<Reduced, System
         roots.push((old, frame));
         bodies.push(body);
     }
-    let carried: Vec<Option<(usize, Frame)>> = fates
+    let carried: Vec<Option<Carrier>> = fates
         .iter()
         .enumerate()
         .map(|(old, fate)| {
@@ -54,14 +58,21 @@ pub(super) fn rebuild(system: &System, fates: &[Fate]) -> Result<Reduced, System
                 Fate::Leads { .. } => (old, Frame::IDENTITY),
                 Fate::Joins { leader, at } => (*leader, *at),
                 Fate::Given { .. } => return None,
+                Fate::Still { at } => return Some((None, *at)),
             };
             let new = number[leader];
-            Some((new, roots[new].1.inverse().then(&at)))
+            Some((Some(new), roots[new].1.inverse().then(&at)))
         })
         .collect();
+    let unsupported = |link, what| SystemError::Unsupported { link, what };
     let carrier = |link: usize| {
         let what = "a link that moves with another, for what is fixed to it,";
-        carried[link].ok_or(SystemError::Unsupported { link, what })
+        carried[link].ok_or(unsupported(link, what))
+    };
+    let moving = |link: usize| {
+        let (body, frame) = carrier(link)?;
+        let body = body.ok_or(unsupported(link, "a link that moves, for what acts on it,"))?;
+        Ok::<_, SystemError>((body, frame))
     };
 
     let mut links = Vec::with_capacity(roots.len());
@@ -70,7 +81,7 @@ pub(super) fn rebuild(system: &System, fates: &[Fate]) -> Result<Reduced, System
         let Fate::Leads { inboard, joint, gimbal } = fates[*old] else { continue };
         let (on, of_inboard) = match inboard {
             None => (None, Frame::IDENTITY),
-            Some(link) => carrier(link).map(|(link, frame)| (Some(link), frame))?,
+            Some(link) => carrier(link)?,
         };
         let joint = seen(&joint, &carrier(*old)?.1, &of_inboard);
         links.push(Link { inboard: on, joint, body: *body });
@@ -84,29 +95,54 @@ pub(super) fn rebuild(system: &System, fates: &[Fate]) -> Result<Reduced, System
         smaller = smaller.with_gimbal(link, gimbal.ok_or(SystemError::Gimbal { link })?)?;
     }
     for (link, law) in system.laws() {
-        smaller = smaller.with_law(carrier(*link)?.0, *law)?;
+        smaller = smaller.with_law(moving(*link)?.0, *law)?;
     }
     if let Some((floor, switching)) = system.ground() {
         let moved = |site: &Site| {
-            let (link, frame) = carrier(site.link)?;
+            let (link, frame) = moving(site.link)?;
             Ok(Site { link, position: frame.point(site.position.into()).into() })
         };
         let sites: Result<Vec<Site>, SystemError> = system.sites().iter().map(moved).collect();
         smaller = smaller.on_floor(*floor, *switching, sites?)?;
     }
-    for closure in system.closures() {
+    for (old, closure) in system.closures().iter().enumerate() {
         let outboard = carrier(closure.outboard)?;
-        let inboard = closure.inboard.map(carrier).transpose()?;
-        smaller = smaller.with_closure(moved_closure(closure, outboard, inboard))?;
+        let inboard = closure.inboard.map_or(Ok((None, Frame::IDENTITY)), carrier)?;
+        let motors = system.closing_motors().iter().find(|motors| motors.closure == old);
+        let Some((moved, is_reversed)) = moved_closure(closure, outboard, inboard) else {
+            // Both of its bodies stand still.
+            continue;
+        };
+        let number = smaller.closures().len();
+        smaller = smaller.with_closure(moved)?;
+        if let Some(motors) = motors {
+            if is_reversed {
+                let what = "a link that moves, as the outboard one of a driven loop,";
+                return Err(unsupported(closure.outboard, what));
+            }
+            let turn = |axis: [f64; 3]| inboard.1.orientation.rotate(axis.into()).into();
+            let gimbal = motors.gimbal.and_then(|gimbal| Gimbal::new(gimbal.axes().map(turn)));
+            smaller = smaller.with_closing_motors(ClosingMotors { closure: number, gimbal })?;
+        }
     }
     for striker in system.strikers() {
         smaller = smaller.with_striker(moved_striker(
             striker,
-            carrier(striker.link)?,
-            carrier(striker.struck)?,
+            moving(striker.link)?,
+            moving(striker.struck)?,
         )?)?;
     }
-    Ok(Reduced { system: smaller, carried, roots })
+    Ok(Reduced { system: smaller, carried, roots, still: still_energy(system, fates) })
+}
+
+/// Potential energy of what is part of the world now, J.
+fn still_energy(system: &System, fates: &[Fate]) -> f64 {
+    let all = system.links().iter().zip(fates);
+    let heights = all.filter_map(|(link, fate)| match fate {
+        Fate::Still { at } => Some(link.body.mass * at.position.z),
+        _ => None,
+    });
+    system.gravity() * heights.sum::<f64>()
 }
 
 /// All bodies of a leader's group, in its frame.
@@ -114,6 +150,7 @@ fn parts(system: &System, fates: &[Fate], of: usize) -> Vec<(Body, Frame)> {
     let place = |(old, fate): (usize, &Fate)| match fate {
         Fate::Leads { .. } => (old == of).then_some(Frame::IDENTITY),
         Fate::Joins { leader, at } | Fate::Given { leader, at } => (*leader == of).then_some(*at),
+        Fate::Still { .. } => None,
     };
     let all = fates.iter().enumerate();
     all.filter_map(|one| place(one).map(|at| (system.links()[one.0].body, at))).collect()
@@ -149,20 +186,27 @@ fn seen(joint: &Joint, outboard: &Frame, inboard: &Frame) -> Joint {
     }
 }
 
+/// A closure between carriers, and whether its bodies have changed places, as only the inboard one can be the
+/// world. None where both are.
 fn moved_closure(
     closure: &Closure,
-    outboard: (usize, Frame),
-    inboard: Option<(usize, Frame)>,
-) -> Closure {
-    let of_inboard = inboard.map_or(Frame::IDENTITY, |(_, frame)| frame);
+    outboard: Carrier,
+    inboard: Carrier,
+) -> Option<(Closure, bool)> {
+    let is_reversed = outboard.0.is_none();
+    let ends = if is_reversed { (inboard, outboard) } else { (outboard, inboard) };
     let closing = match &closure.closing {
-        Closing::Joint(joint) => Closing::Joint(seen(joint, &outboard.1, &of_inboard)),
+        Closing::Joint(joint) => {
+            let joint = if is_reversed { joint.reversed() } else { *joint };
+            Closing::Joint(seen(&joint, &ends.0.1, &ends.1.1))
+        }
         Closing::General(function) => Closing::General(Arc::new(Carried {
             function: Arc::clone(function),
-            frames: [outboard.1, of_inboard],
+            frames: [outboard.1, inboard.1],
+            is_reversed,
         })),
     };
-    Closure { outboard: outboard.0, inboard: inboard.map(|(link, _)| link), closing }
+    Some((Closure { outboard: ends.0.0?, inboard: ends.1.0, closing }, is_reversed))
 }
 
 fn moved_striker(
@@ -190,6 +234,8 @@ struct Carried {
     function: Arc<dyn ConstraintFunction>,
     /// Of the outboard and the inboard body in their carriers.
     frames: [Frame; 2],
+    /// Whether the carriers have changed places.
+    is_reversed: bool,
 }
 
 impl ConstraintFunction for Carried {
@@ -205,6 +251,8 @@ impl ConstraintFunction for Carried {
             [a + arm[0], b + arm[1], c + arm[2], q[0], q[1], q[2], q[3]]
         };
         let [of_outboard, of_inboard] = &self.frames;
+        let (outboard, inboard) =
+            if self.is_reversed { (inboard, outboard) } else { (outboard, inboard) };
         self.function.evaluate(&state(outboard, of_outboard), &state(inboard, of_inboard))
     }
 }

@@ -1,0 +1,175 @@
+//! The biped as a system of the multibody simulator, and where its parts are in it.
+
+use super::biped_model::{BODIES, BipedModel, SMALL_BODIES};
+use super::{PlantState, StepFailure};
+use crate::multibody::{
+    BodyState, Closing, Closure, Frame, Joint, Link, Reduced, Seat, System, SystemError, lumped,
+    merged, rerooted, states_of_tree, system_of_tree,
+};
+use surefoot::model::robots::biped::{FEET, TREE};
+
+/// Motors of one joint.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motors {
+    pub seat: Seat,
+    /// How many: one to three.
+    pub count: usize,
+}
+
+/// The robot in a system, with what a plant adds to it, and how it starts.
+#[derive(Clone, Debug)]
+pub(super) struct BipedSystem {
+    pub system: System,
+    pub states: Vec<BodyState>,
+    pub rates: Vec<BodyState>,
+    /// Joints' motors in the order of torques.
+    pub motors: Vec<Motors>,
+    /// The left and the right foot.
+    pub feet: [Foot; 2],
+    /// Link of §4.1's body 1, and its frame in it.
+    pub central: (usize, Frame),
+    /// Potential energy of what is part of the world, J.
+    pub still_energy: f64,
+}
+
+/// A foot in a system.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Foot {
+    /// It moves: its link, and the foot's frame in it.
+    Free(usize, Frame),
+    /// It is part of the world, and this link, the shank's end, hangs from there; its weight, N.
+    Still(usize, f64),
+    /// It is welded to the world by the first of the closures.
+    Welded,
+}
+
+impl BipedSystem {
+    /// Afloat.
+    ///
+    /// # Errors
+    /// [`StepFailure::Dynamics`] for no configuration.
+    pub fn new(model: BipedModel, state: &PlantState) -> Result<Self, StepFailure> {
+        let full = system_of_tree(&TREE)?;
+        let (states, rates) = states_of_tree(&TREE, &state.positions, &state.velocities)?;
+        let tree = |link| Seat::Tree { link, is_reversed: false };
+        if model == BipedModel::Full {
+            return Ok(Self {
+                system: full,
+                states,
+                rates,
+                motors: (1..BODIES).map(|link| Motors { seat: tree(link), count: 1 }).collect(),
+                feet: FEET.map(|foot| Foot::Free(foot, Frame::IDENTITY)),
+                central: (0, Frame::IDENTITY),
+                still_energy: 0.0,
+            });
+        }
+        let reduced = lumped(&full, &SMALL_BODIES)?;
+        let [left, right, central] = [FEET[0], FEET[1], 0].map(|link| carried(&reduced, link));
+        let (left, right) = (left?, right?);
+        let system = reduced.system.clone();
+        let count = |link: usize| 6 - system.links()[link].joint.constraints();
+        let motors = (1..system.links().len())
+            .map(|link| Motors { seat: tree(link), count: count(link) })
+            .collect();
+        let (states, rates) = reduced.start(&states, &rates);
+        Ok(Self {
+            motors,
+            system,
+            states,
+            rates,
+            feet: [Foot::Free(left.0, left.1), Foot::Free(right.0, right.1)],
+            central: central?,
+            still_energy: 0.0,
+        })
+    }
+
+    /// With a free body as the last link.
+    ///
+    /// # Errors
+    /// A [`SystemError`].
+    pub fn with_link(
+        mut self,
+        link: Link,
+        (state, rate): (BodyState, BodyState),
+    ) -> Result<Self, SystemError> {
+        self.system = self.system.with_link(link)?;
+        self.states.push(state);
+        self.rates.push(rate);
+        Ok(self)
+    }
+
+    /// With both feet held where they are. They are part of the world then, and both legs hang from it; the joint
+    /// between central body and right leg closes the loop. Joints with laws cannot: then the tree hangs from the left
+    /// foot only, and the right one is welded to the world.
+    ///
+    /// # Errors
+    /// A [`SystemError`].
+    pub fn on_still_feet(self) -> Result<Self, SystemError> {
+        let [Foot::Free(left, _), Foot::Free(right, _)] = self.feet else { return Ok(self) };
+        let held = [left, right].map(|foot| (foot, self.states[foot]));
+        // The first joint of the right leg.
+        let Seat::Tree { link: hip, .. } = self.motors[self.motors.len() / 2].seat else {
+            return Ok(self);
+        };
+        let is_free_of_laws = self.system.laws().is_empty();
+        let turned = if is_free_of_laws {
+            rerooted(&self.system, &held, &[hip])?
+        } else {
+            let joint = Joint::weld(&held[1].1);
+            let weld = Closure { outboard: right, inboard: None, closing: Closing::Joint(joint) };
+            rerooted(&self.system.clone().with_closure(weld)?, &held[..1], &[])?
+        };
+        let mut order = vec![0; turned.links.len()];
+        for (old, new) in turned.links.iter().enumerate() {
+            order[*new] = old;
+        }
+        let in_order =
+            |all: &[BodyState]| -> Vec<BodyState> { order.iter().map(|old| all[*old]).collect() };
+        let reduced = merged(&turned.system)?;
+        let (states, rates) = reduced.start(&in_order(&self.states), &in_order(&self.rates));
+        let link = |old: usize| carried(&reduced, old);
+        let seat = |seat: Seat| -> Result<Seat, SystemError> {
+            Ok(match seat {
+                Seat::Tree { link: old, is_reversed } => {
+                    Seat::Tree { link: link(old)?.0, is_reversed }
+                }
+                closure => closure,
+            })
+        };
+        let seat_of = |motors: &Motors| -> Result<Motors, SystemError> {
+            let Seat::Tree { link, .. } = motors.seat else { return Ok(*motors) };
+            let what = "a joint that stays";
+            let moved = turned.seats[link].ok_or(SystemError::Unsupported { link, what })?;
+            Ok(Motors { seat: seat(moved)?, ..*motors })
+        };
+        let motors = self.motors.iter().map(seat_of).collect::<Result<Vec<_>, _>>()?;
+        let foot = |old: usize, ankle: &Motors| match ankle.seat {
+            Seat::Tree { link, is_reversed: true } => {
+                let weight = self.system.links()[old].body.mass * self.system.gravity();
+                Foot::Still(link, weight)
+            }
+            _ => Foot::Welded,
+        };
+        let half = motors.len() / 2;
+        let feet = [foot(left, &motors[half - 1]), foot(right, &motors[motors.len() - 1])];
+        let (central, frame) = link(turned.links[self.central.0])?;
+        Ok(Self {
+            states,
+            rates,
+            motors,
+            feet,
+            central: (central, frame.then(&self.central.1)),
+            still_energy: reduced.still_energy(),
+            system: reduced.system,
+        })
+    }
+}
+
+/// The moving link that carries a link, and where in it.
+fn carried(reduced: &Reduced, link: usize) -> Result<(usize, Frame), SystemError> {
+    let what = "a body that stays and moves";
+    match reduced.carrier(link) {
+        Some((Some(carrier), frame)) => Ok((carrier, frame)),
+        _ => Err(SystemError::Unsupported { link, what }),
+    }
+}
