@@ -6,4 +6,4 @@ mod stability_page;
 mod tables;
 
 pub use page::{PageFailure, Report, page};
-pub use stability_page::{MapFigure, StepRow, StepTable, stability_page};
+pub use stability_page::{ForecastCounts, MapFigure, StepRow, StepTable, stability_page};

@@ -38,6 +38,16 @@ pub struct StepRow {
     pub ratio: String,
 }
 
+/// How many forecasts hold: a sentence each, empty where there is nothing to count.
+pub struct ForecastCounts {
+    /// Of everything.
+    pub all: String,
+    /// Of all maps' columns.
+    pub maps: String,
+    /// Of all longest steps.
+    pub steps: String,
+}
+
 /// Texts are escaped by the template, but for the style, which comes with the program, and drawings, whose
 /// backend escapes.
 #[derive(Template)]
@@ -46,7 +56,7 @@ struct Page<'a> {
     style: &'static str,
     maps: &'a [MapFigure],
     tables: &'a [StepTable],
-    counts: &'a str,
+    counts: &'a ForecastCounts,
 }
 
 /// Draws the page. `counts` says how many forecasts hold.
@@ -56,7 +66,7 @@ struct Page<'a> {
 pub fn stability_page(
     maps: &[MapFigure],
     tables: &[StepTable],
-    counts: &str,
+    counts: &ForecastCounts,
 ) -> Result<String, askama::Error> {
     Page { style: include_str!("page.css"), maps, tables, counts }.render()
 }

@@ -3,9 +3,9 @@
 use super::super::{bad_input, say};
 use super::maps::{self, Mapped};
 use super::{Options, Part, map_picture, steps};
-use crate::report::{MapFigure, stability_page};
-use crate::stability::Scan;
+use crate::report::{ForecastCounts, MapFigure, stability_page};
 use crate::stability::maps::tell;
+use crate::stability::{Scan, Tally};
 use serde_json::json;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -19,13 +19,20 @@ pub(super) fn chart_stability(options: &Options) -> ExitCode {
                     "chart": "stability",
                     "scan": scan,
                     "maps": mapped.as_ref().map(Mapped::json),
+                    "forecasts": {
+                        "steps": scan.as_ref().map(Scan::tally),
+                        "maps": mapped.as_ref().map(Mapped::tally),
+                        "all": in_all(scan.as_ref(), mapped.as_ref()),
+                    },
                     "files": files,
                 });
                 say(&format!("{document:#}\n"));
                 return ExitCode::SUCCESS;
             }
             let scanned = scan.as_ref().map(steps::text);
-            say(&(scanned.unwrap_or_default() + &mapped.map_or(String::new(), |m| m.text())));
+            let maps = mapped.as_ref().map(Mapped::text);
+            say(&(scanned.unwrap_or_default() + &maps.unwrap_or_default()));
+            say(&format!("\nIn all, {}.\n", in_all(scan.as_ref(), mapped.as_ref()).words()));
             for file in files {
                 say(&format!("written: {}\n", file.display()));
             }
@@ -35,13 +42,18 @@ pub(super) fn chart_stability(options: &Options) -> ExitCode {
     }
 }
 
+/// How many forecasts hold, of the scan and all maps.
+fn in_all(scan: Option<&Scan>, mapped: Option<&Mapped>) -> Tally {
+    scan.map(Scan::tally).into_iter().chain(mapped.map(Mapped::tally)).sum()
+}
+
 type Made = (Option<Scan>, Option<Mapped>, Vec<PathBuf>);
 
 fn make(options: &Options) -> Result<Made, String> {
     let folder = &options.out;
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let wants = |part| options.part.is_none_or(|only| only == part);
-    let scan = wants(Part::Steps).then(steps::scan_steps).transpose()?;
+    let scan = wants(Part::Steps).then(|| steps::scan_steps(folder, options.fresh)).transpose()?;
     let mapped = wants(Part::Maps)
         .then(|| maps::make(folder, options.cells.into(), options.fresh))
         .transpose()?;
@@ -76,7 +88,13 @@ fn write_page(
     });
     let figures = figures.collect::<Result<Vec<MapFigure>, String>>()?;
     let tables = scan.map(steps::tables).unwrap_or_default();
-    let counts = scan.map_or(String::new(), |scan| steps::counts(&scan.limits));
+    let sentence = |what: &str, tally: Tally| format!("{what}, {}.", tally.words());
+    let counts = ForecastCounts {
+        all: sentence("Of everything on this page", in_all(scan, mapped)),
+        maps: mapped
+            .map_or(String::new(), |mapped| sentence("Columns of all maps", mapped.tally())),
+        steps: scan.map_or(String::new(), |scan| sentence("Longest steps", scan.tally())),
+    };
     let page = stability_page(&figures, &tables, &counts).map_err(|error| error.to_string())?;
     let path = options.out.join("stability.html");
     std::fs::write(&path, page).map_err(|error| format!("{}: {error}", path.display()))?;
