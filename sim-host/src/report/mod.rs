@@ -10,4 +10,4 @@ mod tables;
 pub use charts_page::{Chapter, Figure, charts_page};
 pub use page::{PageFailure, Report, page};
 pub use plain_chapter::{Table, plain_chapter};
-pub use stability_chapter::{StepRow, StepTable, stability_chapter};
+pub use stability_chapter::{ForecastCounts, StepRow, StepTable, stability_chapter};

@@ -29,23 +29,31 @@ pub struct StepRow {
     pub ratio: String,
 }
 
+/// How many forecasts hold: a sentence each, empty where there is nothing to count.
+pub struct ForecastCounts {
+    /// Of all maps' columns.
+    pub maps: String,
+    /// Of all longest steps.
+    pub steps: String,
+}
+
 /// Texts are escaped by the template, but for drawings, whose backend escapes.
 #[derive(Template)]
 #[template(path = "stability_chapter.html")]
 struct Body<'a> {
     maps: &'a [Figure],
     tables: &'a [StepTable],
-    counts: &'a str,
+    counts: &'a ForecastCounts,
 }
 
-/// Puts it together. `counts` says how many forecasts of steps hold, `headline` of all.
+/// Puts it together. `headline` says how many forecasts hold in all.
 ///
 /// # Errors
 /// [`askama::Error`] if it cannot be written.
 pub fn stability_chapter(
     maps: &[Figure],
     tables: &[StepTable],
-    counts: &str,
+    counts: &ForecastCounts,
     headline: String,
 ) -> Result<Chapter, askama::Error> {
     let body = Body { maps, tables, counts }.render()?;

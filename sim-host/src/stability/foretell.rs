@@ -2,7 +2,7 @@
 
 use super::course::Course;
 use super::forecast::{
-    Change, Forecast, Probe, has_modified_energy, oscillation_limit, steps_and_share,
+    Change, Forecast, Probe, has_modified_energy, most_steps, oscillation_limit,
 };
 use super::verdict::{Bounds, FailureKind};
 use crate::integrators::{Method, Motion, StartError};
@@ -64,8 +64,7 @@ where
     {
         return None;
     }
-    let (steps, share) = steps_and_share(method, C > 0);
-    let step = |state: usize, h: f64| -> Result<Change, FailureKind> {
+    let step = |state: usize, steps: usize, h: f64| -> Result<Change, FailureKind> {
         let (x, v) = course.states[state];
         let mut motion = match start(h, x, v) {
             Ok(motion) => motion,
@@ -94,8 +93,7 @@ where
     let probe = Probe {
         states: course.states.len(),
         spacing_s: course.spacing_s,
-        steps,
-        share,
+        most_steps: most_steps(method, C > 0),
         step: &step,
         has_modified_energy: has_modified_energy(method, C > 0),
         unstable_s: oscillation_limit(method) / course.oscillation,

@@ -2,21 +2,23 @@
 
 use super::catalogue::problems;
 use super::problem::Problem;
+use super::store::{PartStoreError, Parts, ScanStore};
+use super::tally::Tally;
 use super::tree_catalogue::{TreeProblemError, tree_problems};
 use super::verdict::{FailureKind, Verdict};
 use crate::integrators::Method;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Ratio of neighbours in a scan of everything.
-const RATIO: f64 = 1.02;
+pub const RATIO: f64 = 1.02;
 
 /// What was found for a method on a problem.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Limit {
     /// Which problem.
-    pub problem: &'static str,
+    pub problem: String,
     /// Which method.
     pub method: Method,
     /// The last step before the first that fails, s; none if the shortest fails.
@@ -101,7 +103,7 @@ pub struct Scan {
 pub fn scan_one(problem: &Problem, method: Method, ratio: f64) -> Option<Limit> {
     let forecast = problem.forecast(method)?;
     let mut limit = Limit {
-        problem: problem.name,
+        problem: problem.name.to_owned(),
         method,
         works_to_s: None,
         fails_from_s: None,
@@ -143,46 +145,85 @@ fn steps(problem: &Problem, ratio: f64) -> Vec<f64> {
     steps
 }
 
-/// Scans everything on all processors; `done` hears of each finished share of the work, of how many.
+/// All problems whose limits are sought.
 ///
 /// # Errors
 /// Never for the catalogue as shipped.
-pub fn scan(done: &(dyn Fn(usize, usize) + Sync)) -> Result<Scan, TreeProblemError> {
-    let mut problems = problems();
-    problems.extend(tree_problems()?);
-    Ok(scan_problems(&problems, done))
+pub fn all_problems() -> Result<Vec<Problem>, TreeProblemError> {
+    let mut all = problems();
+    all.extend(tree_problems()?);
+    Ok(all)
 }
 
-/// The same of these problems.
-pub fn scan_problems(problems: &[Problem], done: &(dyn Fn(usize, usize) + Sync)) -> Scan {
-    let work: Vec<(&Problem, Method)> = problems
+impl Scan {
+    /// How many forecasts hold.
+    pub fn tally(&self) -> Tally {
+        self.limits.iter().map(Limit::agreement).collect()
+    }
+}
+
+/// Scans on all processors what the store has not, and keeps each limit there as soon as it is found; `done`
+/// hears of each finished share of the work, of how many. The result does not depend on what was there before.
+///
+/// # Errors
+/// The first error of the store; no other scan is begun then.
+pub fn scan_problems(
+    problems: &[Problem],
+    ratio: f64,
+    store: &ScanStore,
+    done: &(dyn Fn(usize, usize) + Sync),
+) -> Result<Scan, PartStoreError> {
+    let known = store.finished()?;
+    let work: Vec<(&Problem, usize, Method)> = problems
         .iter()
-        .flat_map(|problem| Method::all().iter().map(move |method| (problem, *method)))
+        .flat_map(|problem| {
+            Method::all().iter().enumerate().map(move |(number, method)| (problem, number, *method))
+        })
         .collect();
-    let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(0));
-    let found: Mutex<Vec<(usize, Limit)>> = Mutex::new(Vec::new());
+    let missing: Vec<_> = work
+        .iter()
+        .filter(|(problem, number, _)| {
+            known.get(problem.name).is_none_or(|limits| !limits.contains_key(number))
+        })
+        .collect();
+    let found_before = work.len() - missing.len();
+    done(found_before, work.len());
+    let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(found_before));
+    let known: Mutex<(Parts<Limit>, Option<PartStoreError>)> = Mutex::new((known, None));
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     std::thread::scope(|scope| {
-        for _ in 0..workers {
+        for _ in 0..workers.min(missing.len()) {
             scope.spawn(|| {
-                loop {
-                    let at = next.fetch_add(1, Ordering::Relaxed);
-                    let Some((problem, method)) = work.get(at) else { break };
-                    if let Some(limit) = scan_one(problem, *method, RATIO)
-                        && let Ok(mut found) = found.lock()
-                    {
-                        found.push((at, limit));
+                while let Some((problem, number, method)) =
+                    missing.get(next.fetch_add(1, Ordering::Relaxed))
+                {
+                    let limit = scan_one(problem, *method, ratio);
+                    let Ok(mut known) = known.lock() else { break };
+                    let (limits, error) = &mut *known;
+                    if let Some(limit) = limit {
+                        limits.entry(problem.name.to_owned()).or_default().insert(*number, limit);
+                        if let Err(why) = store.keep(limits) {
+                            error.get_or_insert(why);
+                            next.store(missing.len(), Ordering::Relaxed);
+                            break;
+                        }
                     }
                     done(finished.fetch_add(1, Ordering::Relaxed) + 1, work.len());
                 }
             });
         }
     });
-    let mut found = found.into_inner().unwrap_or_default();
-    found.sort_by_key(|(at, _)| *at);
-    Scan {
-        ratio: RATIO,
-        problems: problems.iter().map(|problem| (problem.name, problem.description)).collect(),
-        limits: found.into_iter().map(|(_, limit)| limit).collect(),
+    // A thread that panicked has taken the whole program with it.
+    let (mut limits, error) = known.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    match error {
+        Some(error) => Err(error),
+        None => Ok(Scan {
+            ratio,
+            problems: problems.iter().map(|each| (each.name, each.description)).collect(),
+            limits: problems
+                .iter()
+                .flat_map(|each| limits.remove(each.name).unwrap_or_default().into_values())
+                .collect(),
+        }),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::forecast::Forecast;
 use super::loop_limits::{Criterion, Ending, Manner, play};
-use super::maps::should_work;
+use super::maps::{Axis, Foretold, edge, should_land, should_stand};
 use super::problem::Problem;
 use super::verdict::{FailureKind, Verdict};
 use crate::integrators::Method;
@@ -13,8 +13,6 @@ use surefoot::model::robots::biped::TREE;
 
 /// Steps in question, s.
 const RANGE_S: [f64; 2] = [5e-5, 0.2];
-/// Bisections of the sampled loop's limit.
-const BISECTIONS: usize = 8;
 /// Samples of a run to a forecast of how fast the robot turns.
 const EVERY: usize = 20;
 
@@ -72,7 +70,7 @@ fn kind(method: Method, manner: Manner) -> FailureKind {
 
 /// The baseline plant knows its floor's limit. Of the variational one the floor limits nothing: what does is
 /// how far a body turns in a step, on the run in the scene's own steps. Of either, steps that are control periods
-/// are limited by what the sampled loop asks of the ground.
+/// are limited by what the sampled loop asks of the ground, and by how it comes down there in such steps.
 fn forecast(scene: &Scene, least_duration_s: f64, method: Method) -> Forecast {
     let plant = match (method, &scene.feet) {
         (Method::SemiImplicitEuler, Feet::Floor { outline, floor }) => {
@@ -84,21 +82,28 @@ fn forecast(scene: &Scene, least_duration_s: f64, method: Method) -> Forecast {
         _ => (None, FailureKind::Runaway),
     };
     let criterion = Criterion { least_duration_s, ..Criterion::default() };
-    let works = |period_s: f64| {
+    let own_s = 1.0 / scene.controller.rate_hz;
+    let at = |period_s: f64, step_s: f64| {
         let mut scene = scene.clone();
         scene.controller.rate_hz = 1.0 / period_s;
-        scene.integrator.step_s = period_s / (period_s / scene.integrator.step_s).ceil();
-        should_work(&scene, &criterion)
+        scene.integrator.step_s = period_s / (period_s / step_s - 1e-9).ceil();
+        scene
     };
-    let (mut low, mut high) = (1.0 / scene.controller.rate_hz, RANGE_S[1]);
-    for _ in 0..BISECTIONS {
-        let middle = (low * high).sqrt();
-        *(if works(middle) { &mut low } else { &mut high }) = middle;
-    }
-    let sampled = (Some(low), FailureKind::Unbalanced);
+    let stands = |period_s| should_stand(&at(period_s, scene.integrator.step_s), &criterion);
+    // The floor's own limit of the baseline is far below a control period.
+    let lands = |period_s| method != Method::Variational || should_land(&at(period_s, period_s));
+    let periods = Axis::logarithmic("period", "s", [own_s, RANGE_S[1]]);
+    let sampled_s = match edge(&periods, stands, lands) {
+        Foretold::At(period_s) => period_s,
+        // Steps below the period change nothing about it.
+        Foretold::NothingWorks => {
+            return Forecast { step_s: None, kind: Some(FailureKind::Unbalanced) };
+        }
+        Foretold::Unlimited => RANGE_S[1],
+    };
     let (step_s, kind) = match plant {
-        (Some(step_s), _) if step_s < low => plant,
-        _ => sampled,
+        (Some(step_s), _) if step_s < sampled_s => plant,
+        _ => (Some(sampled_s), FailureKind::Unbalanced),
     };
     Forecast { step_s, kind: Some(kind) }
 }

@@ -4,7 +4,7 @@
 //! springs, dampers and floor are implicit and limit nothing but accuracy; weight enters a step like forces
 //! do in Verlet's method, so that its fastest swing grows beyond `Ω h = 2`.
 
-use super::forecast::{Change, FEW_STEPS, Forecast, Probe, SHARE};
+use super::forecast::{Change, FEW_STEPS, Forecast, Probe};
 use super::problem::Problem;
 use super::verdict::{Bounds, FailureKind, Verdict};
 use crate::contact::Floor;
@@ -160,14 +160,14 @@ impl TreeMotion {
     }
 
     fn forecast(&self, watched: &Watched) -> Forecast {
-        let step = |state: usize, h: f64| -> Result<Change, FailureKind> {
+        let step = |state: usize, steps: usize, h: f64| -> Result<Change, FailureKind> {
             let (states, rates) = &watched.states[state];
             let simulation = Simulation::new(self.system.clone(), h, states, rates);
             let mut simulation =
                 simulation.map_err(|_| FailureKind::NotFinite)?.without_splitting();
             let (kinetic, potential) = simulation.energies()?;
             let mut change = Change::default();
-            for _ in 0..FEW_STEPS {
+            for _ in 0..steps {
                 simulation.step()?;
                 let (kinetic_now, potential_now) = simulation.energies()?;
                 change.energy = kinetic_now + potential_now - kinetic - potential;
@@ -186,8 +186,7 @@ impl TreeMotion {
             spacing_s: watched.spacing_s,
             step: &step,
             has_modified_energy: true,
-            steps: FEW_STEPS,
-            share: SHARE,
+            most_steps: FEW_STEPS,
             unstable_s: watched.unstable_s,
             range_s: RANGE_S,
         };

@@ -5,16 +5,18 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use surefoot_sim::integrators::Method;
 use surefoot_sim::mechanics::systems::FreeRigidBody;
-use surefoot_sim::stability::maps::{Column, Foretold, MapStore, Outcome, maps, survey, tell};
-use surefoot_sim::stability::{Problem, scan_one};
+use surefoot_sim::stability::maps::{Column, Foretold, Outcome, maps, survey, tell};
+use surefoot_sim::stability::{MapStore, Problem, scan_one};
 
-fn file(name: &str) -> PathBuf {
+/// Where this process keeps what charts are made of.
+pub fn file(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("surefoot-maps-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
     folder.join(name)
 }
 
-fn check(map: &surefoot_sim::stability::maps::Map, columns: &[Column]) {
+/// A map's columns are whole, and say nothing that is no number.
+pub fn check(map: &surefoot_sim::stability::maps::Map, columns: &[Column]) {
     assert_eq!(columns.len(), map.x.cells, "{}", map.name);
     for column in columns {
         assert_eq!(column.cells.len(), map.y.cells, "{}", map.name);
@@ -32,21 +34,6 @@ fn check(map: &surefoot_sim::stability::maps::Map, columns: &[Column]) {
     }
     let says = tell(map, columns);
     assert!(!says.contains("NaN") && !says.contains("inf"), "{says}");
-}
-
-/// All maps, four cells a side.
-#[test]
-fn every_cell_is_a_value_or_a_typed_failure() {
-    let maps = maps(4).expect("the scenes as shipped");
-    let path = file("coarse.json");
-    let store = MapStore::new(&path, &maps, b"coarse");
-    store.forget().expect("a file that may go");
-    let columns = survey(&maps, &store, &|_, _| {}).expect("a folder");
-    for (map, columns) in maps.iter().zip(&columns) {
-        check(map, columns);
-        println!("{}: {}", map.name, tell(map, columns));
-    }
-    store.forget().expect("a file that may go");
 }
 
 /// What is there is taken up; what another program has found is not; both lead to the same.

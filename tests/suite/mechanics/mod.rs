@@ -3,6 +3,7 @@
 mod convergence;
 mod equivalence;
 mod forces;
+mod forecasts;
 mod invariants;
 mod limits;
 mod maps;

@@ -1,6 +1,6 @@
 //! `surefoot chart stability --scene`: the limits of a control loop.
 
-use super::{Made, Options, limits_table as table};
+use super::{Made, Options, limits_table as table, this_program};
 use crate::report::plain_chapter;
 use crate::scene::{AnyScene, Scene, open};
 use crate::stability::loop_limits::{Cell, Criterion, Quantity, Store, Survey};
@@ -57,9 +57,7 @@ fn robot(name: &str) -> Result<Scene, String> {
 /// Takes up what an earlier call has left, and finds the rest, with a bar over the cells.
 fn find(survey: &Survey, options: &Options) -> Result<Vec<Cell>, String> {
     let folder = &options.out;
-    let program = std::env::current_exe()
-        .and_then(std::fs::read)
-        .map_err(|error| format!("this program cannot read itself: {error}"))?;
+    let program = this_program()?;
     let path = named(folder, survey.scene, "cells.json");
     let store = Store::new(&path, survey.scene, &survey.criterion, &program);
     if options.fresh {

@@ -1,9 +1,8 @@
 //! `surefoot chart stability`: the maps in two parameters.
 
 use super::map_picture::picture;
-use crate::stability::maps::{
-    Column, Failure, Foretold, Map, MapStore, Outcome, maps, survey, tell,
-};
+use crate::stability::maps::{Column, Failure, Foretold, Map, Outcome, maps, survey, tally, tell};
+use crate::stability::{MapStore, Tally};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -33,10 +32,8 @@ struct Row {
 /// Takes up what an earlier call has left, and makes the rest, with a bar over the columns.
 pub(super) fn make(folder: &Path, cells: usize, fresh: bool) -> Result<Mapped, String> {
     let maps = maps(cells).map_err(|error| error.to_string())?;
-    let program = std::env::current_exe()
-        .and_then(std::fs::read)
-        .map_err(|error| format!("this program cannot read itself: {error}"))?;
-    let store = MapStore::new(&folder.join("maps.columns.json"), &maps, &program);
+    let path = folder.join("maps.columns.json");
+    let store = MapStore::new(&path, &maps, &super::this_program()?);
     if fresh {
         store.forget().map_err(|error| error.to_string())?;
     }
@@ -66,11 +63,19 @@ impl Mapped {
         self.maps.iter().zip(self.columns.iter().map(Vec::as_slice))
     }
 
-    /// What each map says.
+    /// How many forecasts hold, of all maps.
+    pub fn tally(&self) -> Tally {
+        self.iter().map(|(map, columns)| tally(map, columns)).sum()
+    }
+
+    /// What each map says, and how many forecasts hold.
     pub fn text(&self) -> String {
-        self.iter()
+        let mut text: String = self
+            .iter()
             .map(|(map, columns)| format!("\n{}\n  {}\n", map.title, tell(map, columns)))
-            .collect()
+            .collect();
+        text += &format!("\nColumns of all maps, {}.\n", self.tally().words());
+        text
     }
 
     /// A drawing and a table of each map.
@@ -98,6 +103,7 @@ impl Mapped {
                     "x": map.x,
                     "y": map.y,
                     "says": tell(map, columns),
+                    "forecasts": tally(map, columns),
                     "columns": columns,
                 })
             })

@@ -75,6 +75,13 @@ enum Part {
     Maps,
 }
 
+/// The bytes of this program: what another one has found is not taken up.
+fn this_program() -> Result<Vec<u8>, String> {
+    std::env::current_exe()
+        .and_then(std::fs::read)
+        .map_err(|error| format!("this program cannot read itself: {error}"))
+}
+
 /// What a chart has found.
 struct Made {
     /// For people.

@@ -1,6 +1,6 @@
 //! `surefoot chart work-precision`
 
-use super::{Made, Options};
+use super::{Made, Options, this_program};
 use crate::precision::{
     ControllerPrecision, Effort, PROBLEMS, Survey, controller_figures, controller_precision,
     figures, file_of, machine, precision_chapter, survey, write_rows,
@@ -35,9 +35,7 @@ fn find(names: &[&str], options: &Options) -> Result<Vec<Survey>, String> {
     if options.fresh && folder.exists() {
         std::fs::remove_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     }
-    let program = std::env::current_exe()
-        .and_then(std::fs::read)
-        .map_err(|error| format!("this program cannot read itself: {error}"))?;
+    let program = this_program()?;
     let bar = ProgressBar::new_spinner();
     bar.enable_steady_tick(Duration::from_millis(500));
     let each = names.iter().enumerate().map(|(k, name)| {

@@ -1,15 +1,23 @@
 //! `surefoot chart stability`: the longest steps of methods on mechanisms.
 
 use crate::report::{StepRow, StepTable};
-use crate::stability::{Agreement, FailureKind, Limit, Scan, scan};
+use crate::stability::{
+    Agreement, FailureKind, Limit, RATIO, Scan, ScanStore, all_problems, scan_problems,
+};
 use indicatif::ProgressBar;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Scans all methods on all problems, with a bar over them.
-pub(super) fn scan_steps() -> Result<Scan, String> {
+/// Takes up what an earlier call has left, and scans the other methods and problems, with a bar over them.
+pub(super) fn scan_steps(folder: &Path, fresh: bool) -> Result<Scan, String> {
+    let problems = all_problems().map_err(|error| error.to_string())?;
+    let path = folder.join("stability.limits.json");
+    let store = ScanStore::new(&path, &problems, RATIO, &super::this_program()?);
+    if fresh {
+        store.forget().map_err(|error| error.to_string())?;
+    }
     let bar = ProgressBar::new(0);
-    let scan = scan(&|done, all| {
+    let scan = scan_problems(&problems, RATIO, &store, &|done, all| {
         bar.set_length(all as u64);
         bar.set_position(done as u64);
     });
@@ -67,18 +75,8 @@ pub(super) fn text(scan: &Scan) -> String {
         }
     }
     out.push('\n');
-    out.push_str(&counts(&scan.limits));
+    let _ = writeln!(out, "Longest steps, {}.", scan.tally().words());
     out
-}
-
-/// How many forecasts hold.
-pub(super) fn counts(limits: &[Limit]) -> String {
-    let near = limits.iter().filter(|limit| limit.agreement().is_near()).count();
-    let unsafe_side = limits.iter().filter(|limit| limit.agreement().is_unsafe()).count();
-    format!(
-        "Foretold within a factor of two: {near} of {}; more than 10 % too long: {unsafe_side}.\n",
-        limits.len(),
-    )
 }
 
 /// The step foretold.

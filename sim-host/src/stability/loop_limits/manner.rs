@@ -180,7 +180,8 @@ impl Ending<'_> {
     }
 }
 
-fn runs_away(sample: &Sample) -> bool {
+/// Whether a torque is beyond all that a motor could give.
+pub(in crate::stability) fn runs_away(sample: &Sample) -> bool {
     let limits = SafetyLimits::<f64>::biped().joint_torque;
     let legs = sample.torques.iter().zip(limits.iter().cycle());
     legs.into_iter().any(|(torque, limit)| !(torque.abs() <= RUNAWAY * limit))
@@ -198,7 +199,7 @@ fn samples_to_last_flat_sole(samples: &[Sample]) -> usize {
 }
 
 /// Whether all corners of a sole are down.
-fn has_flat_sole(sample: &Sample) -> bool {
+pub(in crate::stability) fn has_flat_sole(sample: &Sample) -> bool {
     // Feet without contact points are welded.
     sample.contacts.is_none_or(|feet| feet.iter().any(|sole| sole.iter().all(|c| is_down(*c))))
 }

@@ -10,7 +10,8 @@
 //! - `c = (−M_y, M_x)/F_z`: where on the floor the force acts (Vukobratović's zero-moment point)
 //!
 //! `F_z > 0` (no pull), `c` between the outermost corners of the soles, `‖F_xy‖ ≤ μ F_z`; each in the mean over
-//! [`TIPPING_S`], since a robot lives through violations that are shorter than it takes to tip.
+//! [`FALLING_S`], since a robot lives through violations that are shorter than it takes to tip. Whether it comes
+//! to stand on its soles at all is asked in [`super::landing`].
 
 use crate::record::Sample;
 use crate::scene::{Feet, Outline, Scene};
@@ -19,9 +20,8 @@ use nalgebra::Vector3;
 use surefoot::dynamics::{body_poses, joint_poses};
 use surefoot::model::robots::biped::{FEET, TREE};
 
-/// A third of `√(z/g)` of a body 1 m above the ground, in which a fall grows by a factor e, s: a sole that has
-/// left the floor for longer does not come back flat.
-const TIPPING_S: f64 = 0.1;
+/// `√(z/g)` of a body 1 m above the ground, in which a fall grows by a factor e, s.
+pub(super) const FALLING_S: f64 = 0.32;
 
 /// What a sample asks of the ground.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,11 +32,11 @@ struct Asked {
     soles: [[f64; 2]; 2],
 }
 
-/// Whether a scene should work on its floor. Scenes without a floor are as they are.
+/// Whether a scene should work on its floor once it stands there. Scenes without a floor are as they are.
 ///
 /// # Cost
 /// One run with held feet.
-pub fn should_work(scene: &Scene, criterion: &Criterion) -> bool {
+pub fn should_stand(scene: &Scene, criterion: &Criterion) -> bool {
     let floor = match &scene.feet {
         Feet::Floor { outline, floor } => Some((*outline, floor.static_friction)),
         Feet::Welded {} => None,
@@ -51,7 +51,7 @@ pub fn should_work(scene: &Scene, criterion: &Criterion) -> bool {
     let Some((outline, friction)) = floor else { return true };
     let asked: Option<Vec<Asked>> =
         run.samples.iter().map(|sample| Asked::of(sample, outline)).collect();
-    let window = (TIPPING_S * scene.controller.rate_hz).round().max(1.0) as usize;
+    let window = (FALLING_S * scene.controller.rate_hz).round().max(1.0) as usize;
     // Runs that are shorter than the window are judged as a whole.
     asked.is_some_and(|asked| {
         asked.windows(window.min(asked.len()).max(1)).all(|some| is_given(some, friction))

@@ -2,7 +2,9 @@
 
 use super::axis::Axis;
 use super::column::{Foretold, Map, Stack};
-use super::ground::should_work;
+use super::edge::edge;
+use super::ground::should_stand;
+use super::landing::should_land;
 use super::outcome::{Failure, Outcome};
 use crate::scene::{Scene, load};
 use crate::stability::TreeProblemError;
@@ -16,8 +18,6 @@ const DELAYS: [f64; 2] = [0.0, 0.057];
 const FRICTIONS: [f64; 2] = [0.01, 1.0];
 /// Scales of the gains.
 const GAINS: [f64; 2] = [0.25, 16.0];
-/// Bisections of a forecast: to a hundredth of its range.
-const BISECTIONS: usize = 7;
 
 /// The maps of this module.
 ///
@@ -50,8 +50,9 @@ pub fn loop_maps(cells: usize) -> Result<Vec<Map>, TreeProblemError> {
 
 /// How `works_if` is said, and what the forecast is.
 const NOTE: &str = "A cell works if the robot stands within 10 mm and 1° of its set point for the last 0.5 s of \
-                    4 s. Foretold from a run with feet that are held: it must settle, and ask of the ground \
-                    what soles and friction can give.";
+                    4 s. Foretold from a run with feet that are held, which must settle, and ask of the ground \
+                    what soles and friction can give; and from the first 0.4 s on the floor, which must end \
+                    on flat soles.";
 
 /// A scene with one more quantity changed, in steps of which a control period has a whole number.
 fn trial(scene: &Scene, quantity: Quantity) -> Option<Trial<'_>> {
@@ -60,11 +61,11 @@ fn trial(scene: &Scene, quantity: Quantity) -> Option<Trial<'_>> {
     Some(Trial { scene, quantity, footing, criterion })
 }
 
-/// Whether a value should work.
-fn foretold(scene: &Scene, quantity: Quantity, value: f64) -> bool {
-    trial(scene, quantity).is_some_and(|trial| {
-        should_work(&trial.scene_at(value, scene.integrator.step_s), &trial.criterion)
-    })
+/// Where on an axis of a quantity a scene's edge should be.
+fn foretold(scene: &Scene, quantity: Quantity, axis: &Axis) -> Foretold {
+    let Some(trial) = trial(scene, quantity) else { return Foretold::Unlimited };
+    let at = |value| trial.scene_at(value, scene.integrator.step_s);
+    edge(axis, |value| should_stand(&at(value), &trial.criterion), |value| should_land(&at(value)))
 }
 
 /// What becomes of a scene with one more quantity changed.
@@ -75,22 +76,6 @@ fn outcome(scene: &Scene, quantity: Quantity, value: f64) -> Outcome {
         // A value that the scene's check refuses, like a delay beyond what motors can have.
         Err(_) => Outcome::Fails(Failure::Loop(Manner::NotReachable)),
     }
-}
-
-/// The last value between two that works, if any does.
-fn edge(axis: &Axis, works: impl Fn(f64) -> bool) -> Foretold {
-    let (mut low, mut high) = (axis.from, axis.to);
-    if !works(low) {
-        return Foretold::NothingWorks;
-    }
-    if works(high) {
-        return Foretold::Unlimited;
-    }
-    for _ in 0..BISECTIONS {
-        let middle = axis.between(low, high);
-        *(if works(middle) { &mut low } else { &mut high }) = middle;
-    }
-    Foretold::At(low)
 }
 
 fn delay_and_rate(name: &'static str, title: &str, scene: &Scene, cells: usize) -> Map {
@@ -106,7 +91,7 @@ fn delay_and_rate(name: &'static str, title: &str, scene: &Scene, cells: usize) 
             let mut scene = scene.clone();
             Quantity::ControlRate.set(&mut scene, rate_hz);
             Stack {
-                foretold: edge(&y, |delay| foretold(&scene, Quantity::Delay, delay)),
+                foretold: foretold(&scene, Quantity::Delay, &y),
                 attempt: Box::new(move |delay| outcome(&scene, Quantity::Delay, delay)),
             }
         }),
@@ -126,7 +111,7 @@ fn gains_and_friction(name: &'static str, title: &str, scene: &Scene, cells: usi
             let mut scene = scene.clone();
             Quantity::Friction.set(&mut scene, friction);
             Stack {
-                foretold: edge(&y, |scale| foretold(&scene, Quantity::GainScale, scale)),
+                foretold: foretold(&scene, Quantity::GainScale, &y),
                 attempt: Box::new(move |scale| outcome(&scene, Quantity::GainScale, scale)),
             }
         }),

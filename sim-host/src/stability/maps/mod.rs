@@ -3,31 +3,33 @@
 //! ```text
 //! Map ─► for each x a Stack (a forecast, and an attempt at any y) ─► Column: outcomes of all cells, the edge
 //!                                                                     bisected between two of them
-//! Survey ─► columns on two threads ─► Store: finished columns, kept at once
+//! Survey ─► columns on all processors ─► MapStore: finished columns, kept at once
 //! ```
 //! In each column the easy end of `y` is at the bottom. The edge is that before the first cell that fails
 //! from there; what works again beyond is in the map, but not asked of a forecast.
 
 mod axis;
 mod column;
+mod edge;
 mod ground;
+mod landing;
 mod loops;
 mod methods;
 mod outcome;
-mod store;
 mod survey;
 mod tell;
 mod yielding;
 
 pub use axis::Axis;
 pub use column::{Column, Foretold, Map, Stack};
-pub use ground::should_work;
+pub(super) use edge::edge;
+pub use ground::should_stand;
+pub use landing::should_land;
 pub use loops::loop_maps;
 pub use methods::method_maps;
 pub use outcome::{Failure, Outcome};
-pub use store::{MapStore, MapStoreError};
 pub use survey::survey;
-pub use tell::{count_forecasts, significant, tell};
+pub use tell::{significant, tally, tell};
 pub use yielding::floor_maps;
 
 use super::TreeProblemError;

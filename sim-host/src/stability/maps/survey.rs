@@ -1,7 +1,7 @@
 //! All columns of all maps, on all processors.
 
 use super::column::{Column, Map};
-use super::store::{Columns, MapStore, MapStoreError};
+use crate::stability::store::{MapStore, PartStoreError, Parts};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -14,7 +14,7 @@ pub fn survey(
     maps: &[Map],
     store: &MapStore,
     done: &(dyn Fn(usize, usize) + Sync),
-) -> Result<Vec<Vec<Column>>, MapStoreError> {
+) -> Result<Vec<Vec<Column>>, PartStoreError> {
     let known = store.finished()?;
     let work: Vec<(usize, usize, f64)> = maps
         .iter()
@@ -29,7 +29,7 @@ pub fn survey(
         .collect();
     let found_before = work.len() - missing.len();
     done(found_before, work.len());
-    let known: Mutex<(Columns, Option<MapStoreError>)> = Mutex::new((known, None));
+    let known: Mutex<(Parts<Column>, Option<PartStoreError>)> = Mutex::new((known, None));
     let (next, finished) = (AtomicUsize::new(0), AtomicUsize::new(found_before));
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     std::thread::scope(|scope| {

@@ -2,12 +2,11 @@
 
 use super::column::{Column, Foretold, Map};
 use super::outcome::Outcome;
-use crate::stability::Agreement;
+use crate::stability::{Agreement, Tally};
 
-/// Columns whose forecast is within a factor of two, and those for which it is more than a tenth too long.
-pub fn count_forecasts(map: &Map, columns: &[Column]) -> [usize; 2] {
-    let all = || columns.iter().map(|column| map.agreement(column));
-    [all().filter(|a| a.is_near()).count(), all().filter(|a| a.is_unsafe()).count()]
+/// How many columns' forecasts hold.
+pub fn tally(map: &Map, columns: &[Column]) -> Tally {
+    columns.iter().map(|column| map.agreement(column)).collect()
 }
 
 /// What a map says.
@@ -30,12 +29,14 @@ pub fn tell(map: &Map, columns: &[Column]) -> String {
             if islands == 1 { "1 column".to_owned() } else { format!("{islands} columns") };
         text += &format!(" In {columns} something works again beyond the first failure.");
     }
-    let [near, bold] = count_forecasts(map, columns);
+    let counts = tally(map, columns);
     let told = columns.iter().filter(|column| column.foretold != Foretold::Unlimited).count();
     let limits = if told == 0 { "No limit was foretold; that is" } else { "The forecast is" };
     text + &format!(
-        " {limits} within a factor of two in {near} of {} columns, and more than 10 % too long in {bold}{}.",
-        columns.len(),
+        " {limits} within a factor of two in {} of {} columns, and more than 10 % too long in {}{}.",
+        counts.within_a_factor_of_two,
+        counts.forecasts,
+        counts.unsafe_by_more_than_a_tenth,
         worst(map, columns),
     )
 }
