@@ -8,6 +8,7 @@ mod chart;
 mod controller;
 mod count_steps;
 mod list;
+mod recommended;
 mod report;
 mod reproduce;
 mod run;

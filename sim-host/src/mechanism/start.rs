@@ -1,7 +1,9 @@
 //! From a scene to a mechanism on its way.
 
+use super::composed::Composed;
 use super::merged::without_fixed_joints;
 use super::moving::{Moved, Moving};
+use super::tree::OnTree;
 use crate::integrators::{
     ADAPTIVE_TOLERANCE, DormandPrince, Method, StartError, start_free_body, start_natural,
 };
@@ -84,17 +86,26 @@ pub fn start_within(
             // The scene's check allows no more.
             _ => pendulum::<4, 8, 12, 16>(scene, tolerance, *gravity_m_s2, links),
         },
-        Mechanism::Multibody(bodies) => {
-            let torques: Vec<f64> = bodies.bodies.iter().map(|body| body.torque).collect();
-            Ok(without_fixed_joints(
-                start_bodies(&scene.mechanism, scene.integrator.step_s)?,
-                &torques,
-            )?)
-        }
-        Mechanism::Biped(_) | Mechanism::Chain { .. } => {
-            Ok(Box::new(start_bodies(&scene.mechanism, scene.integrator.step_s)?))
+        Mechanism::Multibody(_) | Mechanism::Biped(_) | Mechanism::Chain { .. } => {
+            bodies_under(scene, tolerance)
         }
     }
+}
+
+/// Bodies and joints, under the scene's method.
+fn bodies_under(scene: &MechanismScene, tolerance: f64) -> Result<Box<dyn Moving>, StartFailure> {
+    let simulation = start_bodies(&scene.mechanism, scene.integrator.step_s)?;
+    let torques = scene.mechanism.torques();
+    Ok(match scene.integrator.name {
+        Method::Variational => match &scene.mechanism {
+            Mechanism::Multibody(_) => without_fixed_joints(simulation, &torques)?,
+            _ => Box::new(simulation),
+        },
+        method @ (Method::Yoshida4 | Method::Yoshida6) => {
+            Box::new(Composed::new(method, simulation)?)
+        }
+        method => Box::new(OnTree::new(method, tolerance, simulation, &torques)?),
+    })
 }
 
 /// Bodies and joints, in steps of `h`.

@@ -30,17 +30,15 @@ mod sweep;
 mod table;
 mod touch_down;
 mod tree_contenders;
-mod tree_course;
-mod tree_model;
 
-pub use advice::{Advice, AdviceError, advise};
+pub use advice::{Advice, AdviceError, Among, RECORDED, advise};
 pub use catalogue::{CatalogueError, PROBLEMS, problem};
-pub use contender::{Contender, Runs, Start};
+pub use contender::{Contender, Foretell, Runs, Start};
 pub use controller::{
     ControllerPrecision, FASTEST_HZ, TorqueError, TrackingError, controller_precision,
 };
 pub use controller_figures::controller_figures;
-pub use course::{Conserved, Course, Trouble};
+pub use course::{Conserved, Course};
 pub use figures::{PrecisionFigure, figures};
 pub use measure::{Failed, Level, Measurement, Played, Span, Timing, distance};
 pub use page::{PrecisionPageFailure, page as precision_page};

@@ -85,14 +85,15 @@ fn recommended(survey: &Survey) -> Vec<Row> {
     let rows = ACCURACIES.iter().filter_map(|accuracy| {
         let all = ranked(&survey.curves, *accuracy);
         let first = all.first()?;
-        let limit = first.fails_from_s.map(|h| format!("{:.2}", first.step_s / h));
+        let limit = first.limit_s().map(|h| format!("{:.2}", first.step_s / h));
         let next = all.get(1).map(|next| format!("{}, {}", next.method, sentences::cost(next)));
         Some(Row {
             accuracy: format!("{accuracy:.0e}"),
             method: first.method.clone(),
             step: sentences::step(first),
             cost: sentences::cost(first),
-            limit: limit.unwrap_or_else(|| "no step tried fails".to_owned()),
+            limit: limit
+                .unwrap_or_else(|| "no step tried fails, and nothing is foretold".to_owned()),
             next: next.unwrap_or_else(|| "none".to_owned()),
         })
     });

@@ -81,7 +81,8 @@ pub fn survey(
         let curve: Curve = match store.kept(&part)? {
             Some(curve) => curve,
             None => {
-                let curve = sweep(&problem, contender, &exact, effort);
+                let mut curve = sweep(&problem, contender, &exact, effort);
+                curve.foretold_s = (contender.foretell)();
                 store.keep(&part, &curve)?;
                 curve
             }

@@ -128,6 +128,7 @@ pub fn parse(name: &str, text: &str) -> Result<AnyScene, SceneError> {
     if table.contains_key("mechanism") {
         let mut scene: MechanismScene = toml::from_str(text).map_err(syntax)?;
         name.clone_into(&mut scene.name);
+        scene.is_unadvised = !table.contains_key("integrator");
         scene.check()?;
         return Ok(AnyScene::Mechanism(scene));
     }

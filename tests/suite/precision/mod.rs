@@ -2,6 +2,7 @@
 
 mod advice;
 mod controller;
+mod defaults;
 mod orders;
 mod repeats;
 
