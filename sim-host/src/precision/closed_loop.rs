@@ -43,6 +43,7 @@ pub(super) fn closed_loop(scene: &Scene) -> Problem {
             .collect(),
         keeps_energy: false,
         closed_form: None,
+        scene: None,
     }
 }
 

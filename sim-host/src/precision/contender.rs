@@ -39,8 +39,12 @@ pub struct Contender {
 impl Contender {
     /// A method that makes steps from a start.
     pub fn stepping(name: impl Into<String>, order: Option<u32>, start: Start) -> Self {
-        let levels = divisions().map(|divisions| Level { divisions, tolerance: None }).collect();
-        Self::of_starts(name.into(), order, levels, start)
+        Self::of_starts(name.into(), order, Self::levels_of_steps(), start)
+    }
+
+    /// Those of a method with steps of its own.
+    pub fn levels_of_steps() -> Vec<Level> {
+        divisions().map(|divisions| Level { divisions, tolerance: None }).collect()
     }
 
     /// The same of a method that chooses its steps within a tolerance.

@@ -29,6 +29,7 @@ struct Page<'a> {
     step_margin: f64,
     sections: Vec<Section<'a>>,
     controller: Vec<PrecisionFigure>,
+    uncounted: &'a str,
     style: &'static str,
 }
 
@@ -36,6 +37,7 @@ struct Section<'a> {
     survey: &'a Survey,
     recommended: Vec<Row>,
     losses: String,
+    peers: String,
     doubtful: String,
     figures: Vec<PrecisionFigure>,
     failures: Vec<String>,
@@ -64,9 +66,15 @@ pub fn page(
         Ok(Section {
             recommended: recommended(survey),
             losses: sentences::losses(survey),
+            peers: sentences::peers(survey),
             doubtful: sentences::doubtful(survey),
             figures: figures(survey)?,
-            failures: survey.curves.iter().flat_map(sentences::failures).collect(),
+            failures: survey
+                .curves
+                .iter()
+                .chain(&survey.peers)
+                .flat_map(sentences::failures)
+                .collect(),
             survey,
         })
     };
@@ -75,6 +83,7 @@ pub fn page(
         error_margin: ERROR_MARGIN,
         step_margin: STEP_MARGIN,
         controller: controller_figures(controller)?,
+        uncounted: controller.uncounted.as_deref().unwrap_or_default(),
         sections: surveys.iter().map(section).collect::<Result<_, _>>()?,
         style: include_str!("../report/page.css"),
     };

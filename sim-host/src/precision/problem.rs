@@ -38,6 +38,8 @@ pub struct Problem {
     pub keeps_energy: bool,
     /// Where there is one.
     pub closed_form: Option<ClosedForm>,
+    /// Of a mechanism's scene.
+    pub scene: Option<MechanismScene>,
 }
 
 /// Times at which places are compared.
@@ -82,6 +84,7 @@ impl Problem {
             omitted,
             keeps_energy,
             closed_form: None,
+            scene: Some(scene.clone()),
         })
     }
 }

@@ -57,6 +57,7 @@ pub(super) fn touch_down() -> Problem {
                 .map(|sample| (0..BALLS).map(|ball| exact(height(ball), time(sample))).collect())
                 .collect()
         })),
+        scene: None,
     }
 }
 

@@ -4,6 +4,7 @@ mod advice;
 mod controller;
 mod defaults;
 mod orders;
+mod peers;
 mod repeats;
 
 use surefoot_sim::precision::Effort;
