@@ -397,7 +397,9 @@ fn a_run_says_where_its_method_and_step_come_from() {
         assert_eq!(status, Some(0), "{arguments:?}: {stderr}");
         serde_json::from_str(&stdout).expect("one document")
     };
-    let cases: [(&[&str], Option<&str>, Option<f64>, &[&str]); 6] = [
+    // Arguments, what they make the method and the step, and words of the reason.
+    type Case<'a> = (&'a [&'a str], Option<&'a str>, Option<f64>, &'a [&'a str]);
+    let cases: [Case<'_>; 6] = [
         (&[open], None, None, &["advised for an error of 1e-4", "when tried"]),
         (&[open, "--integrator", "rattle"], Some("rattle"), None, &["command line", "advised"]),
         (&[open, "--step", "0.01"], None, Some(0.01), &["command line", "advised"]),

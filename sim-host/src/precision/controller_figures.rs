@@ -100,7 +100,8 @@ fn against(
     precision: &ControllerPrecision,
     cost: impl Fn(&TorqueError) -> Option<f64>,
 ) -> Vec<MarkedCurve> {
-    let groups: [(&str, fn(&TorqueError) -> bool); 4] = [
+    type IsIn = fn(&TorqueError) -> bool;
+    let groups: [(&str, IsIn); 4] = [
         ("big base", |row| row.form.factor.is_some()),
         ("exact foot", is_plain),
         ("dynamics held", |row| {

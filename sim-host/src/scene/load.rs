@@ -57,6 +57,7 @@ fn advice(nearest: &Option<&'static str>) -> String {
 }
 
 /// A scene of either kind.
+#[expect(clippy::large_enum_variant, reason = "a program holds one or a dozen of them")]
 #[derive(Clone, Debug, PartialEq)]
 pub enum AnyScene {
     /// A robot under its controller.
