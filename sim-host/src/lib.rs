@@ -13,6 +13,7 @@
 //! All of it in f64, but for a controller in f32. A plant allocates when it is built, never in a
 //! step.
 
+pub mod callgrind;
 pub mod chart;
 pub mod cli;
 pub mod closed_loop;

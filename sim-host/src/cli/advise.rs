@@ -1,8 +1,9 @@
 //! `surefoot advise`
 
+use super::recommended::ACCURACY;
 use super::{RUN_FAILED, bad_input, say};
 use crate::precision::{
-    Advice, AdviceError, Choice, Effort, Problem, advise as advised, cost, step,
+    Advice, AdviceError, Among, Choice, Effort, Problem, STEP_MARGIN, advise as advised, cost, step,
 };
 use crate::scene::{AnyScene, open};
 use clap::Parser;
@@ -17,7 +18,7 @@ pub struct Options {
     /// A built-in scene or a TOML file; its own method and step do not matter
     scene: String,
     /// Largest error of the trajectory that is wanted, over how far the motion reaches
-    #[arg(long, default_value_t = 1e-4)]
+    #[arg(long, default_value_t = ACCURACY)]
     accuracy: f64,
     /// Simulated time, s, in place of the scene's
     #[arg(long)]
@@ -40,7 +41,7 @@ pub fn advise(options: &Options) -> ExitCode {
     let bar = ProgressBar::new_spinner();
     bar.set_message("all methods, from coarse steps to fine ones");
     bar.enable_steady_tick(Duration::from_millis(500));
-    let advice = advised(&problem, options.accuracy, &Effort::ADVICE);
+    let advice = advised(&problem, options.accuracy, Among::All, &Effort::ADVICE);
     bar.finish_and_clear();
     match advice {
         Ok(advice) => {
@@ -103,6 +104,13 @@ fn text(advice: &Advice) -> String {
         }
         None => writeln!(out, "  no step tried fails"),
     };
+    let _ = match choice.foretold_s {
+        Some(h) => {
+            writeln!(out, "  {:.2} of the longest step foretold, {h:.2e} s", choice.step_s / h)
+        }
+        None => writeln!(out, "  no limit of the step is foretold"),
+    };
+    let _ = writeln!(out, "  (at most {STEP_MARGIN} of either)");
     if let Some((next, rest)) = advice.others.split_first() {
         let _ = writeln!(out, "next best: {}", line(next));
         for choice in rest {

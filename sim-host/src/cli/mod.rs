@@ -7,8 +7,10 @@ mod advise;
 mod chart;
 mod controller;
 mod count_steps;
+mod count_ticks;
 mod list;
 mod model;
+mod recommended;
 mod report;
 mod reproduce;
 mod run;
@@ -36,6 +38,9 @@ enum Command {
     /// What `chart parsimony` runs under callgrind
     #[command(hide = true)]
     CountSteps(count_steps::Options),
+    /// What `chart work-precision` runs under callgrind
+    #[command(hide = true)]
+    CountTicks(count_ticks::Options),
     /// Advise on a method and a step for a scene and an accuracy
     Advise(advise::Options),
     /// List scenes, integrators and robots
@@ -56,6 +61,7 @@ pub fn main() -> ExitCode {
         Some(Command::Reproduce(options)) => reproduce::reproduce(&options),
         Some(Command::Chart(options)) => chart::chart(&options),
         Some(Command::CountSteps(options)) => count_steps::count_steps(&options),
+        Some(Command::CountTicks(options)) => count_ticks::count_ticks(&options),
         Some(Command::Advise(options)) => advise::advise(&options),
         Some(Command::List(options)) => list::list(&options),
     }

@@ -13,6 +13,8 @@ use std::path::PathBuf;
 pub struct Report<'a> {
     /// The scene as run.
     pub scene: &'a Scene,
+    /// Why it has this method and this step.
+    pub reason: &'a str,
     /// Precision of the controller.
     pub scalar: Scalar,
     /// Where the controller ran.
@@ -87,6 +89,7 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
         run.wall.as_secs_f64(),
         reading(scene.controller.torques_from),
     )?;
+    writeln!(out, "  method: {}; {}", scene.integrator.name, report.reason)?;
     let rung = scene.rung();
     let bodies = rung.model.bodies();
     writeln!(out, "  model: {}, {bodies} bodies; {}", rung.model, rung.reason)?;
@@ -162,7 +165,7 @@ pub fn percent(difference: Option<f64>) -> String {
 
 /// The document of `--json`. Keys that have no meaning for a plant are null.
 pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
-    let Report { scene, scalar, controller, run, other } = report;
+    let Report { scene, scalar, controller, run, other, reason } = report;
     let peaks = Peaks::of(&run.samples);
     let last = run.samples.last();
     let peak_torque = peaks.map(|peaks| {
@@ -180,6 +183,7 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "scene": scene.name,
         "integrator": scene.integrator.name,
         "step_s": scene.integrator.step_s,
+        "integrator_reason": reason,
         "duration_s": scene.duration_s,
         "scalar": scalar,
         "controller": controller,

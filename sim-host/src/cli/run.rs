@@ -4,7 +4,7 @@ use super::controller::ControllerOptions;
 use super::model::ModelName;
 use super::report::{self, Report};
 use super::run_mechanism::run_mechanism;
-use super::{RUN_FAILED, bad_input, say};
+use super::{RUN_FAILED, bad_input, recommended, say};
 use crate::chart::RUN_FIGURES;
 use crate::closed_loop::{self, Run};
 use crate::integrators::Method;
@@ -29,6 +29,10 @@ pub struct Options {
     /// Step in seconds, instead of the scene's
     #[arg(long, allow_negative_numbers = true)]
     pub(super) step: Option<f64>,
+    /// Take the quickest method and step whose error is at most this, over how far the motion reaches (see `surefoot
+    /// advise`)
+    #[arg(long)]
+    pub(super) accuracy: Option<f64>,
     /// Simulated seconds, instead of the scene's
     #[arg(long, allow_negative_numbers = true)]
     pub(super) duration: Option<f64>,
@@ -92,8 +96,8 @@ pub fn run(options: &Options) -> ExitCode {
         Ok(AnyScene::Mechanism(scene)) => return run_mechanism(scene, options),
         Err(error) => return bad_input(&error.to_string(), options.json),
     };
-    let scene = match with_options(scene, options) {
-        Ok(scene) => scene,
+    let (scene, reason) = match with_options(scene, options) {
+        Ok(chosen) => chosen,
         Err(message) => return bad_input(&message, options.json),
     };
     let run = match simulate(&scene, options) {
@@ -115,6 +119,7 @@ pub fn run(options: &Options) -> ExitCode {
     }
     let report = Report {
         scene: &scene,
+        reason: &reason,
         scalar: options.controller.scalar(),
         controller: options.controller.place,
         run: &run,
@@ -138,15 +143,9 @@ pub fn run(options: &Options) -> ExitCode {
     }
 }
 
-fn with_options(mut scene: Scene, options: &Options) -> Result<Scene, String> {
+fn with_options(mut scene: Scene, options: &Options) -> Result<(Scene, String), String> {
     if options.links.is_some() {
         return Err(format!("{} has no links to choose a number of", scene.name));
-    }
-    if let Some(name) = options.integrator {
-        scene.integrator.name = name;
-    }
-    if let Some(step) = options.step {
-        scene.integrator.step_s = step;
     }
     if let Some(duration) = options.duration {
         scene.duration_s = duration;
@@ -157,8 +156,9 @@ fn with_options(mut scene: Scene, options: &Options) -> Result<Scene, String> {
     if let Some(model) = options.model {
         scene.model = model.of_robot()?;
     }
+    let reason = recommended::of_robot(&mut scene, options)?;
     scene.check().map_err(|error| error.to_string())?;
-    Ok(scene)
+    Ok((scene, reason))
 }
 
 /// The same scene in the other reading of the first instant; welded feet have only one.

@@ -3,7 +3,7 @@
 use super::model::ModelName;
 use super::report::SHOWN_EVENTS;
 use super::run::{Options, bar, created};
-use super::{RUN_FAILED, bad_input, say};
+use super::{RUN_FAILED, bad_input, recommended, say};
 use crate::chart::write_mechanism_chart;
 use crate::mechanism::{ChosenModel, MechanismRun, run_model};
 use crate::record::write_mechanism_csv;
@@ -16,8 +16,8 @@ use std::process::ExitCode;
 
 /// Runs the scene and reports.
 pub(super) fn run_mechanism(scene: MechanismScene, options: &Options) -> ExitCode {
-    let scene = match with_options(scene, options) {
-        Ok(scene) => scene,
+    let (scene, reason) = match with_options(scene, options) {
+        Ok(chosen) => chosen,
         Err(message) => return bad_input(&message, options.json),
     };
     let from = match options.saved(&scene.name) {
@@ -44,9 +44,9 @@ pub(super) fn run_mechanism(scene: MechanismScene, options: &Options) -> ExitCod
         Err(message) => return bad_input(&message, options.json),
     };
     if options.json {
-        say(&format!("{:#}\n", document(&scene, &run, &files)));
+        say(&format!("{:#}\n", document(&scene, &reason, &run, &files)));
     } else {
-        say(&text(&scene, &run, &files));
+        say(&text(&scene, &reason, &run, &files));
     }
     match &run.failure {
         None => ExitCode::SUCCESS,
@@ -57,7 +57,10 @@ pub(super) fn run_mechanism(scene: MechanismScene, options: &Options) -> ExitCod
     }
 }
 
-fn with_options(scene: MechanismScene, options: &Options) -> Result<MechanismScene, String> {
+fn with_options(
+    scene: MechanismScene,
+    options: &Options,
+) -> Result<(MechanismScene, String), String> {
     if options.is_about_a_controller() {
         return Err(format!("{} has no controller, and no options of one", scene.name));
     }
@@ -65,17 +68,12 @@ fn with_options(scene: MechanismScene, options: &Options) -> Result<MechanismSce
         None => scene,
         Some(links) => scene.with_links(links).map_err(|error| error.to_string())?,
     };
-    if let Some(method) = options.integrator {
-        scene.integrator.name = method;
-    }
-    if let Some(step) = options.step {
-        scene.integrator.step_s = step;
-    }
     if let Some(duration) = options.duration {
         scene.duration_s = duration;
     }
+    let reason = recommended::of_mechanism(&mut scene, options)?;
     scene.check().map_err(|error| error.to_string())?;
-    Ok(scene)
+    Ok((scene, reason))
 }
 
 fn write_files(
@@ -99,17 +97,22 @@ fn advice(run: &MechanismRun) -> String {
     }
 }
 
-fn text(scene: &MechanismScene, run: &MechanismRun, files: &[PathBuf]) -> String {
+fn text(scene: &MechanismScene, reason: &str, run: &MechanismRun, files: &[PathBuf]) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
-    let _ = lines(&mut out, scene, run);
+    let _ = lines(&mut out, scene, reason, run);
     for file in files {
         let _ = writeln!(out, "  {}", file.display());
     }
     out
 }
 
-fn lines(out: &mut String, scene: &MechanismScene, run: &MechanismRun) -> std::fmt::Result {
+fn lines(
+    out: &mut String,
+    scene: &MechanismScene,
+    reason: &str,
+    run: &MechanismRun,
+) -> std::fmt::Result {
     let word = if run.failure.is_some() { "FAILED" } else { "COMPLETED" };
     writeln!(out, "{}: {word}", scene.name)?;
     writeln!(out, "  {}", scene.description)?;
@@ -129,6 +132,7 @@ fn lines(out: &mut String, scene: &MechanismScene, run: &MechanismRun) -> std::f
         scene.integrator.step_s,
         wall_s * 1e6 / steps.max(1) as f64,
     )?;
+    writeln!(out, "  method and step: {reason}")?;
     writeln!(
         out,
         "  Newton iterations: {:.2} on average, {} at most; unknowns: {}",
@@ -163,7 +167,7 @@ fn lines(out: &mut String, scene: &MechanismScene, run: &MechanismRun) -> std::f
 }
 
 /// The document of `--json`. Keys that have no meaning for a mechanism are null.
-fn document(scene: &MechanismScene, run: &MechanismRun, files: &[PathBuf]) -> Value {
+fn document(scene: &MechanismScene, reason: &str, run: &MechanismRun, files: &[PathBuf]) -> Value {
     let failure = run.failure.as_ref().map(|failure| {
         json!({
             "kind": FailureKind::from(*failure),
@@ -177,6 +181,7 @@ fn document(scene: &MechanismScene, run: &MechanismRun, files: &[PathBuf]) -> Va
         "scene": scene.name,
         "integrator": scene.integrator.name,
         "step_s": scene.integrator.step_s,
+        "integrator_reason": reason,
         "duration_s": scene.duration_s,
         "scalar": "f64",
         "model": run.model,

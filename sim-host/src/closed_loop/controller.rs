@@ -1,5 +1,6 @@
 //! Controllers on the host.
 
+use super::approximate::{ApproximateController, Approximation};
 use super::firmware::LinkError;
 use crate::plant::PlantState;
 use crate::scene::{Scene, Workspace};
@@ -10,7 +11,7 @@ use surefoot::balance::{
     self, Fault, Gains, LeggedRobot, Reference, RobotState, StopReason, WorkspaceForm, tick,
 };
 use surefoot::model::robots::biped;
-use surefoot::spatial::{Quaternion, SymmetricMatrix3, Twist};
+use surefoot::spatial::{Quaternion, SymmetricMatrix3, Twist, Wrench};
 
 static ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
 static ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32(&biped::TREE_F32);
@@ -101,8 +102,8 @@ impl ControlFailure {
 
 /// The core's controller, run on the host in precision `T`.
 pub struct HostController<T: 'static> {
-    controller: balance::Controller<'static, T, 2>,
-    reference: Reference<T>,
+    pub(super) controller: balance::Controller<'static, T, 2>,
+    pub(super) reference: Reference<T>,
 }
 
 /// The controller of a scene.
@@ -110,6 +111,23 @@ pub fn controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
     match scalar {
         Scalar::F32 => Box::new(HostController::new(&ROBOT_F32, scene)),
         Scalar::F64 => Box::new(HostController::new(&ROBOT, scene)),
+    }
+}
+
+/// The same with something left out; feet are held exactly, whatever the scene says.
+pub fn approximate_controller(
+    scene: &Scene,
+    scalar: Scalar,
+    approximation: Approximation,
+) -> Box<dyn Controller> {
+    match scalar {
+        Scalar::F32 => Box::new(ApproximateController::new(
+            HostController::new(&ROBOT_F32, scene),
+            approximation,
+        )),
+        Scalar::F64 => {
+            Box::new(ApproximateController::new(HostController::new(&ROBOT, scene), approximation))
+        }
     }
 }
 
@@ -156,12 +174,21 @@ impl<T: Real> Controller for HostController<T> {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let command = tick(&self.controller, &measured(state), &self.reference)
             .map_err(ControlFailure::Fault)?;
-        let [left, right] = command.joint_torques;
-        Ok(Commanded {
-            torques: std::array::from_fn(|i| {
+        Ok(commanded(command.joint_torques, command.desired_wrench))
+    }
+}
+
+/// A tick's answer from precision `T`.
+pub(super) fn commanded<T: Real>(
+    [left, right]: [[T; 6]; 2],
+    desired_wrench: Wrench<T>,
+) -> Commanded {
+    Commanded {
+        torques: std::array::from_fn(
+            |i| {
                 if i < 6 { left[i].to_f64() } else { right[i - 6].to_f64() }
-            }),
-            desired_wrench: command.desired_wrench.to_array().map(Real::to_f64),
-        })
+            },
+        ),
+        desired_wrench: desired_wrench.to_array().map(Real::to_f64),
     }
 }

@@ -1,6 +1,7 @@
 //! The controller in the loop: sampled at its rate, its torques held between ticks.
 
 mod acting;
+mod approximate;
 mod controller;
 mod errors;
 mod estimate;
@@ -13,8 +14,10 @@ mod run;
 mod sensing;
 
 pub use acting::{CutTorques, Motors};
+pub use approximate::{ApproximateController, Approximation};
 pub use controller::{
-    Commanded, ControlFailure, Controller, Costs, HostController, Scalar, controller, measured,
+    Commanded, ControlFailure, Controller, Costs, HostController, Scalar, approximate_controller,
+    controller, measured,
 };
 pub use outcome::{Failure, Outcome, Peak, Peaks};
 pub use plant::plant;

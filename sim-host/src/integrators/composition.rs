@@ -9,6 +9,11 @@ use crate::mechanics::{DiscreteLagrangian, Scalar};
 pub const YOSHIDA_4: [f64; 3] =
     [1.351_207_191_959_657_8, -1.702_414_383_919_315_6, 1.351_207_191_959_657_8];
 
+/// The longest stage of a composition, over its step.
+pub fn longest_stage(stages: &[f64]) -> f64 {
+    stages.iter().fold(0.0, |longest: f64, stage| longest.max(stage.abs()))
+}
+
 /// Sixth order, seven stages: solution A of Yoshida's table 1.
 pub const YOSHIDA_6: [f64; 7] = [
     0.784_513_610_477_560,

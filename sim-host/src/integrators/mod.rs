@@ -19,7 +19,7 @@ mod start;
 mod step_error;
 mod variational;
 
-pub use composition::{Composition, YOSHIDA_4, YOSHIDA_6};
+pub use composition::{Composition, YOSHIDA_4, YOSHIDA_6, longest_stage};
 pub use dormand_prince::DormandPrince;
 pub use energy_momentum::EnergyMomentum;
 pub use implicit_midpoint::ImplicitMidpoint;

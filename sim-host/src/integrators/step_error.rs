@@ -1,6 +1,7 @@
 //! Why a step could not be made, which one, and when.
 
 use crate::newton::NewtonFailure;
+use surefoot::dynamics::DynamicsFault;
 
 /// A step that could not be made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -41,4 +42,7 @@ pub enum StepFailure {
     /// The adaptive method's own steps have become too short or too many.
     #[error("the adaptive method cannot meet its tolerance")]
     Adaptive,
+    /// The equations of motion have no solution.
+    #[error("{0}")]
+    Dynamics(#[from] DynamicsFault),
 }

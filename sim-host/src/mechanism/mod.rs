@@ -1,11 +1,13 @@
 //! Runs of mechanisms that nobody controls (chapter 2), under any method.
 
+mod composed;
 mod merged;
 mod model;
 mod moving;
 mod run;
 mod smaller;
 mod start;
+mod tree;
 
 pub use merged::NotMerged;
 pub use model::{ChosenModel, MechanismModel, Started};

@@ -1,8 +1,10 @@
 //! From a scene to a mechanism on its way.
 
+use super::composed::Composed;
 use super::merged::NotMerged;
 use super::model::{MechanismModel, Started, with_model};
 use super::moving::{Moved, Moving};
+use super::tree::OnTree;
 use crate::integrators::{
     ADAPTIVE_TOLERANCE, DormandPrince, Method, StartError, start_free_body, start_natural,
 };
@@ -41,6 +43,16 @@ pub enum StartFailure {
     /// It has no model to choose.
     #[error("the mechanism has one model only")]
     OneModel,
+    /// Smaller models are the variational method's.
+    #[error(
+        "the {model} model is of the method variational, not of {method}: --integrator variational"
+    )]
+    ModelOfVariational {
+        /// Which model.
+        model: MechanismModel,
+        /// The scene's method.
+        method: Method,
+    },
     /// It has no bodies and joints.
     #[error("the mechanism has no bodies and joints")]
     NoBodies,
@@ -98,7 +110,7 @@ pub fn start_within(
             _ => pendulum::<4, 8, 12, 16>(scene, tolerance, *gravity_m_s2, links),
         },
         Mechanism::Multibody(_) | Mechanism::Biped(_) | Mechanism::Chain { .. } => {
-            Ok(start_model(scene, None)?.moving)
+            Ok(bodies_under(scene, tolerance, None)?.moving)
         }
     }
 }
@@ -111,17 +123,37 @@ pub fn start_model(
     scene: &MechanismScene,
     wanted: Option<MechanismModel>,
 ) -> Result<Started, StartFailure> {
-    let torques: Vec<f64> = match &scene.mechanism {
+    match &scene.mechanism {
         Mechanism::RigidBody { .. } | Mechanism::Pendulum { .. } if wanted.is_some() => {
-            return Err(StartFailure::OneModel);
+            Err(StartFailure::OneModel)
         }
         Mechanism::RigidBody { .. } | Mechanism::Pendulum { .. } => {
-            return Ok(Started { moving: start(scene)?, model: None });
+            Ok(Started { moving: start(scene)?, model: None })
         }
-        Mechanism::Multibody(bodies) => bodies.bodies.iter().map(|body| body.torque).collect(),
-        Mechanism::Biped(_) | Mechanism::Chain { .. } => Vec::new(),
+        _ => bodies_under(scene, ADAPTIVE_TOLERANCE, wanted),
+    }
+}
+
+/// Bodies and joints under the scene's method: of the simulator's own there are several models.
+fn bodies_under(
+    scene: &MechanismScene,
+    tolerance: f64,
+    wanted: Option<MechanismModel>,
+) -> Result<Started, StartFailure> {
+    let simulation = start_bodies(&scene.mechanism, scene.integrator.step_s)?;
+    let torques = scene.mechanism.torques();
+    let method = scene.integrator.name;
+    if method == Method::Variational {
+        return with_model(simulation, &torques, wanted);
+    }
+    if let Some(model) = wanted.filter(|model| *model != MechanismModel::Full) {
+        return Err(StartFailure::ModelOfVariational { model, method });
+    }
+    let moving: Box<dyn Moving> = match method {
+        Method::Yoshida4 | Method::Yoshida6 => Box::new(Composed::new(method, simulation)?),
+        _ => Box::new(OnTree::new(method, tolerance, simulation, &torques)?),
     };
-    with_model(start_bodies(&scene.mechanism, scene.integrator.step_s)?, &torques, wanted)
+    Ok(Started { moving, model: None })
 }
 
 /// Bodies and joints, in steps of `h`.

@@ -1,8 +1,8 @@
 //! All rungs of a scene's ladder, with what each costs and how far it is off.
 
-use super::callgrind::count;
 use super::play::{PlayFailure, Played, Rung};
 use super::saving::Saving;
+use super::step_count::count;
 use crate::scene::{self, Scene};
 use clap::ValueEnum;
 use nalgebra::Vector3;

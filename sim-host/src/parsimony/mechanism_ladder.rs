@@ -1,8 +1,8 @@
 //! All rungs of the ladder of bodies and joints, with what each costs and how far it is off.
 
-use super::callgrind::count;
 use super::ladder::{RUNS, apart, word};
 use super::play::{PlayFailure, Played, fly};
+use super::step_count::count;
 use crate::mechanism::{ChosenModel, MechanismModel, Moving, Started, start_bodies, start_model};
 use crate::multibody::ConstrainedSimulation;
 use crate::scene::MechanismScene;

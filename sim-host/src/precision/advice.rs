@@ -6,6 +6,8 @@ use super::problem::{Omission, Problem};
 use super::recommend::{Choice, ranked};
 use super::reference::{NoReference, Reference, reference};
 use super::sweep::{Curve, Effort, measured, sweep, timed};
+use crate::integrators::{ADAPTIVE_TOLERANCE, Method};
+use crate::scene::Integrator;
 use serde::Serialize;
 
 /// An advice.
@@ -69,6 +71,53 @@ const SURE: f64 = 10.0;
 /// A choice that misses what is wanted is made finer so often.
 const CORRECTIONS: u32 = 4;
 
+/// Which methods are asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Among {
+    /// All.
+    All,
+    /// Those of `run`, which leaves a record of every step: methods with steps of their own. Where none of them is
+    /// accurate enough, the adaptive one as it is there, at its finest tolerance between [`RECORDED`] instants.
+    Run,
+    /// One of these.
+    Only(Method),
+}
+
+impl Among {
+    fn asks(self, contender: &Contender) -> bool {
+        match self {
+            Self::All => true,
+            Self::Run => !contender.is_adaptive() && named(&contender.name).is_some(),
+            Self::Only(method) => !contender.is_adaptive() && contender.name == method.name(),
+        }
+    }
+
+    fn falls_back_on(self, contender: &Contender) -> bool {
+        contender.is_adaptive()
+            && match self {
+                Self::All => false,
+                Self::Run => true,
+                Self::Only(method) => contender.name == method.name(),
+            }
+    }
+}
+
+/// The method of a name, if it is one of `run`.
+fn named(name: &str) -> Option<Method> {
+    Method::all().iter().copied().find(|method| method.name() == name)
+}
+
+impl Advice {
+    /// What `run` takes; none of an adaptive method at a tolerance that it does not have there, and of a form that
+    /// is no method there.
+    pub fn integrator(&self) -> Option<Integrator> {
+        let is_there =
+            self.choice.tolerance.is_none_or(|tolerance| tolerance <= ADAPTIVE_TOLERANCE);
+        let name = named(&self.choice.method).filter(|_| is_there)?;
+        Some(Integrator { name, step_s: self.choice.step_s })
+    }
+}
+
 /// Advises on a problem for an accuracy, relative to how far the motion reaches.
 ///
 /// # Errors
@@ -76,34 +125,43 @@ const CORRECTIONS: u32 = 4;
 ///
 /// # Cost
 /// All methods at some twenty steps: seconds to a minute.
-pub fn advise(problem: &Problem, accuracy: f64, effort: &Effort) -> Result<Advice, AdviceError> {
+pub fn advise(
+    problem: &Problem,
+    accuracy: f64,
+    among: Among,
+    effort: &Effort,
+) -> Result<Advice, AdviceError> {
     let exact = reference(problem, effort.most_evaluations)?;
     if !(SURE * exact.apart <= accuracy) {
         let (problem, apart) = (problem.name.clone(), exact.apart);
         return Err(AdviceError::Unsure { problem, apart, accuracy });
     }
-    let curves: Vec<Curve> = problem
-        .contenders
-        .iter()
-        .map(|contender| sweep(problem, contender, &exact, effort))
-        .collect();
-    let all = ranked(&curves, accuracy);
+    let asked: Vec<&Contender> = problem.contenders.iter().filter(|c| among.asks(c)).collect();
+    let mut curves: Vec<Curve> =
+        asked.iter().map(|contender| sweep(problem, contender, &exact, effort)).collect();
+    let all = foretold(&asked, &mut curves, accuracy);
     let is_ranked = |name: &String| all.iter().any(|choice| choice.method == *name);
     let too_coarse = curves.iter().map(|c| c.method.clone()).filter(|n| !is_ranked(n)).collect();
-    for (place, choice) in all.iter().enumerate() {
-        let contender = problem.contenders.iter().find(|c| c.name == choice.method);
-        let Some(contender) = contender else { continue };
-        let Some((level, tried)) = tried(problem, contender, choice, &exact, accuracy) else {
-            continue;
-        };
+    let found = all.iter().enumerate().find_map(|(place, choice)| {
+        let contender = *asked.iter().find(|c| c.name == choice.method)?;
+        let (level, tried) = tried(problem, contender, choice, &exact, accuracy)?;
         let time = timed(problem, contender, level, effort);
         let mut others = all.clone();
         others.remove(place);
+        let choice = Choice { step_s: tried.step_s, ..choice.clone() };
+        Some((choice, Measurement { time, ..tried }, others))
+    });
+    let fallback = || {
+        let contender = problem.contenders.iter().find(|c| among.falls_back_on(c))?;
+        let (choice, tried) = at_its_finest(problem, contender, &exact, accuracy, effort)?;
+        Some((choice, tried, Vec::new()))
+    };
+    if let Some((choice, tried, others)) = found.or_else(fallback) {
         return Ok(Advice {
             problem: problem.name.clone(),
             accuracy,
-            choice: Choice { step_s: tried.step_s, ..choice.clone() },
-            tried: Measurement { time, ..tried },
+            choice,
+            tried,
             others,
             too_coarse,
             omitted: problem.omitted.clone(),
@@ -114,6 +172,55 @@ pub fn advise(problem: &Problem, accuracy: f64, effort: &Effort) -> Result<Advic
     let errors = curves.iter().flat_map(|curve| &curve.measurements).filter_map(|m| m.error);
     let best = errors.fold(f64::INFINITY, f64::min);
     Err(AdviceError::OutOfReach { problem: problem.name.clone(), accuracy, best })
+}
+
+/// All that are accurate enough, quickest first, the first with its limit foretold: to foretell all would take
+/// longer than to measure them.
+fn foretold(asked: &[&Contender], curves: &mut [Curve], accuracy: f64) -> Vec<Choice> {
+    let mut is_foretold = vec![false; curves.len()];
+    loop {
+        let all = ranked(curves, accuracy);
+        let first =
+            all.first().and_then(|first| curves.iter().position(|c| c.method == first.method));
+        // Each turn foretells one more.
+        match first.filter(|k| !is_foretold[*k]) {
+            None => return all,
+            Some(k) => {
+                curves[k].foretold_s = (asked[k].foretell)();
+                is_foretold[k] = true;
+            }
+        }
+    }
+}
+
+/// Instants that `run` records of an adaptive method, unless a step is named.
+pub const RECORDED: u32 = 1000;
+
+/// An adaptive method as `run` has it, if that is accurate enough.
+fn at_its_finest(
+    problem: &Problem,
+    contender: &Contender,
+    exact: &Reference,
+    accuracy: f64,
+    effort: &Effort,
+) -> Option<(Choice, Measurement)> {
+    let divisions = RECORDED.div_ceil(problem.span.samples);
+    let level = Level { divisions, tolerance: Some(ADAPTIVE_TOLERANCE) };
+    let played = contender.runs.play(&problem.span, level);
+    let made = measured(problem, contender, level, played, exact);
+    let error = made.error.filter(|error| made.failure.is_none() && *error <= accuracy)?;
+    let time = timed(problem, contender, level, effort);
+    let choice = Choice {
+        method: contender.name.clone(),
+        step_s: contender.runs.step_s(&problem.span, level),
+        tolerance: level.tolerance,
+        error,
+        time_s: time.map(|time| time.median),
+        evaluations: made.evaluations,
+        fails_from_s: None,
+        foretold_s: None,
+    };
+    Some((choice, Measurement { time, ..made }))
 }
 
 /// The choice as whole steps, made finer until it is what was wanted.

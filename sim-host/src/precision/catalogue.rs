@@ -5,7 +5,9 @@ use super::touch_down::touch_down;
 use crate::integrators::Method;
 use crate::mechanics::systems::DoubleSphericalPendulum;
 use crate::mechanism::StartFailure;
-use crate::scene::{AnyScene, Integrator, Link, Mechanism, MechanismScene, SceneError, open};
+use crate::scene::{
+    AnyScene, Integrator, Link, Mechanism, MechanismScene, MotionMatters, SceneError, open,
+};
 
 /// Why there is no problem.
 #[derive(Debug, thiserror::Error)]
@@ -76,6 +78,8 @@ fn double_pendulum() -> MechanismScene {
         description: "The double spherical pendulum of §2.4.2, from its printed start".to_owned(),
         duration_s: 10.0,
         integrator: Integrator { name: Method::Variational, step_s: 0.01 },
+        is_unadvised: false,
+        matters: MotionMatters::default(),
         mechanism: Mechanism::Pendulum { gravity_m_s2: system.gravity, links: links.collect() },
     }
 }

@@ -29,12 +29,14 @@ struct Body<'a> {
     step_margin: f64,
     sections: Vec<Section<'a>>,
     controller: Vec<Figure>,
+    uncounted: &'a str,
 }
 
 struct Section<'a> {
     survey: &'a Survey,
     recommended: Vec<Row>,
     losses: String,
+    peers: String,
     doubtful: String,
     /// Error against time, which the others stand below.
     first: Option<Figure>,
@@ -65,18 +67,25 @@ pub fn chapter(
         Ok(Section {
             recommended: recommended(survey),
             losses: sentences::losses(survey),
+            peers: sentences::peers(survey),
             doubtful: sentences::doubtful(survey),
             first: shown.next(),
             others: shown.collect(),
-            failures: survey.curves.iter().flat_map(sentences::failures).collect(),
+            failures: survey
+                .curves
+                .iter()
+                .chain(&survey.peers)
+                .flat_map(sentences::failures)
+                .collect(),
             survey,
         })
     };
-    let controller = controller_figures(controller)?;
+    let drawn = controller_figures(controller)?;
     let body = Body {
         error_margin: ERROR_MARGIN,
         step_margin: STEP_MARGIN,
-        controller: controller.into_iter().map(|figure| in_page("controller", figure)).collect(),
+        controller: drawn.into_iter().map(|figure| in_page("controller", figure)).collect(),
+        uncounted: controller.uncounted.as_deref().unwrap_or_default(),
         sections: surveys.iter().map(section).collect::<Result<_, _>>()?,
     };
     Ok(Chapter {
@@ -102,14 +111,15 @@ fn recommended(survey: &Survey) -> Vec<Row> {
     let rows = ACCURACIES.iter().filter_map(|accuracy| {
         let all = ranked(&survey.curves, *accuracy);
         let first = all.first()?;
-        let limit = first.fails_from_s.map(|h| format!("{:.2}", first.step_s / h));
+        let limit = first.limit_s().map(|h| format!("{:.2}", first.step_s / h));
         let next = all.get(1).map(|next| format!("{}, {}", next.method, sentences::cost(next)));
         Some(Row {
             accuracy: format!("{accuracy:.0e}"),
             method: first.method.clone(),
             step: sentences::step(first),
             cost: sentences::cost(first),
-            limit: limit.unwrap_or_else(|| "no step tried fails".to_owned()),
+            limit: limit
+                .unwrap_or_else(|| "no step tried fails, and nothing is foretold".to_owned()),
             next: next.unwrap_or_else(|| "none".to_owned()),
         })
     });

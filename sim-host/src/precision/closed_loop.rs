@@ -1,11 +1,12 @@
 //! A robot under its controller: the simulator's plant, and the baseline to compare with.
 
-use super::contender::{Contender, Runs};
+use super::contender::{Contender, Foretell, Runs};
 use super::measure::{Failed, Level, Played, Span};
 use super::problem::{Omission, Problem};
 use crate::closed_loop::{Run, Scalar, controller, run};
 use crate::integrators::Method;
 use crate::scene::Scene;
+use crate::stability::standing;
 use cpu_time::ThreadTime;
 
 /// Steps within a tick of each method, coarsest first: the floor bounds the baseline's.
@@ -24,6 +25,7 @@ pub(super) fn closed_loop(scene: &Scene) -> Problem {
             order: method.order(),
             levels: divisions.iter().map(level).collect(),
             runs: Box::new(InLoop { scene: scene.clone(), method }),
+            foretell: foretell(scene, method),
         }
     });
     let omitted = Method::all().iter().filter(|m| STEPS.iter().all(|(method, _)| method != *m));
@@ -41,7 +43,14 @@ pub(super) fn closed_loop(scene: &Scene) -> Problem {
             .collect(),
         keeps_energy: false,
         closed_form: None,
+        scene: None,
     }
+}
+
+/// What [`standing`] foretells, for the scene's duration.
+fn foretell(scene: &Scene, method: Method) -> Foretell {
+    let scene = scene.clone();
+    Box::new(move || standing(scene.clone(), scene.duration_s).forecast(method)?.step_s)
 }
 
 struct InLoop {

@@ -19,6 +19,9 @@ pub trait Runs: Send + Sync {
     fn time(&self, span: &Span, level: Level) -> Option<f64>;
 }
 
+/// The longest step that a method is foretold to bear, s, where something is foretold.
+pub type Foretell = Box<dyn Fn() -> Option<f64> + Send + Sync>;
+
 /// A method on a problem.
 pub struct Contender {
     /// Its name.
@@ -29,13 +32,19 @@ pub struct Contender {
     pub levels: Vec<Level>,
     /// Runs it.
     pub runs: Box<dyn Runs>,
+    /// Foretells its limit.
+    pub foretell: Foretell,
 }
 
 impl Contender {
     /// A method that makes steps from a start.
     pub fn stepping(name: impl Into<String>, order: Option<u32>, start: Start) -> Self {
-        let levels = divisions().map(|divisions| Level { divisions, tolerance: None }).collect();
-        Self { name: name.into(), order, levels, runs: Box::new(Stepping(start)) }
+        Self::of_starts(name.into(), order, Self::levels_of_steps(), start)
+    }
+
+    /// Those of a method with steps of its own.
+    pub fn levels_of_steps() -> Vec<Level> {
+        divisions().map(|divisions| Level { divisions, tolerance: None }).collect()
     }
 
     /// The same of a method that chooses its steps within a tolerance.
@@ -45,7 +54,22 @@ impl Contender {
             tolerance: Some(10_f64.powf(-0.5 * f64::from(tenths))),
         };
         let levels = (2..=26).map(level).collect();
-        Self { name: name.into(), order: None, levels, runs: Box::new(Stepping(start)) }
+        Self::of_starts(name.into(), None, levels, start)
+    }
+
+    fn of_starts(name: String, order: Option<u32>, levels: Vec<Level>, start: Start) -> Self {
+        Self { name, order, levels, runs: Box::new(Stepping(start)), foretell: Box::new(|| None) }
+    }
+
+    /// The same with its limit foretold.
+    #[must_use]
+    pub fn foretold_by(self, foretell: Foretell) -> Self {
+        Self { foretell, ..self }
+    }
+
+    /// Whether it chooses its steps.
+    pub fn is_adaptive(&self) -> bool {
+        self.levels.iter().any(|level| level.tolerance.is_some())
     }
 }
 

@@ -1,28 +1,30 @@
-//! The controller's precision: errors of torques in f32 and f64, with feet held exactly or by a big base, and
-//! of the motion at lower rates.
+//! The controller's precision: errors of torques in f32 and f64, with feet held exactly or by a big base, or with
+//! something left out, and of the motion at lower rates.
 
+use super::controller_form::ControllerForm;
 use super::measure::Timing;
+use super::tick_count::{StatesFile, pass};
 use crate::closed_loop::{Controller, Scalar, controller, run};
 use crate::plant::PlantState;
-use crate::scene::{Scene, SceneError, Workspace, load};
+use crate::scene::{Scene, SceneError, load};
 use cpu_time::ThreadTime;
 use serde::Serialize;
-use std::hint::black_box;
 use surefoot::spatial::Quaternion;
 
-/// A form of the controller in one precision, on all states of Experiment 1.
+/// A form of the controller on all states of Experiment 1.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TorqueError {
-    /// Times that a foot is as heavy as the central body; none for feet held exactly.
-    pub factor: Option<f64>,
-    /// Precision.
-    pub scalar: Scalar,
+    /// Which one.
+    #[serde(flatten)]
+    pub form: ControllerForm,
     /// Largest error of a torque over the largest torque; none where some tick gave none.
     pub largest: Option<f64>,
     /// Half of the ticks' largest errors are below this.
     pub median: Option<f64>,
     /// Ticks that gave no torques.
     pub faults: usize,
+    /// A tick's instructions, the mean over all states, where they have been counted.
+    pub instructions: Option<u64>,
     /// A tick's computing time on this machine, s.
     pub tick: Option<Timing>,
 }
@@ -46,22 +48,23 @@ pub struct ControllerPrecision {
     pub torques: Vec<TorqueError>,
     /// Of the motion.
     pub tracking: Vec<TrackingError>,
+    /// Why instructions have not been counted, where they have not.
+    pub uncounted: Option<String>,
 }
 
 /// The rate that stands for a controller without delay.
 pub const FASTEST_HZ: f64 = 8000.0;
 /// Rates are this divided by whole numbers, so that all have the same steps.
 const DIVISORS: [u32; 10] = [2, 4, 8, 16, 32, 64, 80, 100, 125, 160];
-/// Powers of ten.
-const FACTORS: std::ops::RangeInclusive<i32> = 2..=9;
 /// Passes through all states that are timed.
 const PASSES: usize = 15;
 
-/// Measures it on Experiment 1.
+/// Measures it on Experiment 1, and counts instructions where that `is_counted`: by running this program, which must
+/// then be `surefoot`.
 ///
 /// # Errors
 /// [`SceneError`] where the built-in scene is none.
-pub fn controller_precision() -> Result<ControllerPrecision, SceneError> {
+pub fn controller_precision(is_counted: bool) -> Result<ControllerPrecision, SceneError> {
     let scene = load("experiment-1")?;
     let exact = run(&scene, controller(&scene, Scalar::F64).as_mut(), &mut |_| {});
     let states: Vec<PlantState> = exact
@@ -69,14 +72,27 @@ pub fn controller_precision() -> Result<ControllerPrecision, SceneError> {
         .iter()
         .map(|sample| PlantState { positions: sample.positions, velocities: sample.velocities })
         .collect();
-    let mut reference = controller(&scene, Scalar::F64);
-    let wanted: Vec<Option<[f64; 12]>> = torques(reference.as_mut(), &states);
-    let forms = std::iter::once(None).chain(FACTORS.map(|power| Some(10_f64.powi(power))));
-    let torques = forms
-        .flat_map(|factor| [Scalar::F64, Scalar::F32].map(|scalar| (factor, scalar)))
-        .map(|(factor, scalar)| torque_error(&scene, factor, scalar, &states, &wanted))
-        .collect();
-    Ok(ControllerPrecision { torques, tracking: tracking(&scene) })
+    let wanted = torques(ControllerForm::EXACT.controller(&scene).as_mut(), &states);
+    let forms = ControllerForm::all();
+    let counts = match is_counted {
+        true => counted(&forms, &states),
+        false => Err("not asked for".to_owned()),
+    };
+    let (counts, uncounted) = match counts {
+        Ok(counts) => (counts.into_iter().map(Some).collect(), None),
+        Err(reason) => (vec![None; forms.len()], Some(reason)),
+    };
+    let each = forms.into_iter().zip(counts);
+    let torques = each.map(|(form, instructions)| TorqueError {
+        instructions,
+        ..torque_error(form, &scene, &states, &wanted)
+    });
+    Ok(ControllerPrecision { torques: torques.collect(), tracking: tracking(&scene), uncounted })
+}
+
+fn counted(forms: &[ControllerForm], states: &[PlantState]) -> Result<Vec<u64>, String> {
+    let file = StatesFile::write(states).map_err(|error| error.to_string())?;
+    file.count(forms).map_err(|error| error.to_string())
 }
 
 fn torques(controller: &mut dyn Controller, states: &[PlantState]) -> Vec<Option<[f64; 12]>> {
@@ -84,15 +100,12 @@ fn torques(controller: &mut dyn Controller, states: &[PlantState]) -> Vec<Option
 }
 
 fn torque_error(
+    form: ControllerForm,
     scene: &Scene,
-    factor: Option<f64>,
-    scalar: Scalar,
     states: &[PlantState],
     wanted: &[Option<[f64; 12]>],
 ) -> TorqueError {
-    let mut scene = scene.clone();
-    scene.controller.workspace = factor.map_or(Workspace::FixedFoot, Workspace::BigBase);
-    let mut controller = controller(&scene, scalar);
+    let mut controller = form.controller(scene);
     let given = torques(controller.as_mut(), states);
     let scale = wanted.iter().flatten().flatten().fold(0.0_f64, |m, torque| m.max(torque.abs()));
     let pairs = given.iter().zip(wanted).filter_map(|(a, b)| a.as_ref().zip(b.as_ref()));
@@ -103,15 +116,12 @@ fn torque_error(
     let faults = given.iter().filter(|torques| torques.is_none()).count();
     let times = (0..PASSES).map(|_| {
         let begun = ThreadTime::now();
-        for state in states {
-            // A fault takes its time too.
-            let _ = black_box(controller.tick(black_box(state)));
-        }
+        pass(controller.as_mut(), states, 1);
         begun.elapsed().as_secs_f64() / states.len() as f64
     });
     TorqueError {
-        factor,
-        scalar,
+        form,
+        instructions: None,
         largest: errors.last().copied().filter(|_| faults == 0),
         median: errors.get(errors.len() / 2).copied(),
         faults,

@@ -1,9 +1,10 @@
 //! The charts of the controller's precision.
 
 use super::controller::{ControllerPrecision, FASTEST_HZ, TorqueError};
+use super::controller_form::ControllerForm;
 use super::figures::PrecisionFigure;
 use crate::chart::{ChartError, LogLogChart, MarkedCurve};
-use crate::closed_loop::Scalar;
+use crate::closed_loop::{Approximation, Scalar};
 
 const SCALARS: [(Scalar, &str); 2] = [(Scalar::F64, "f64"), (Scalar::F32, "f32")];
 
@@ -14,29 +15,9 @@ const SCALARS: [(Scalar, &str); 2] = [(Scalar::F64, "f64"), (Scalar::F32, "f32")
 pub fn controller_figures(
     precision: &ControllerPrecision,
 ) -> Result<Vec<PrecisionFigure>, ChartError> {
-    let of = |scalar: Scalar, is_exact: bool| {
-        precision
-            .torques
-            .iter()
-            .filter(move |row| row.scalar == scalar && row.factor.is_none() == is_exact)
-    };
-    let mut by_factor = Vec::new();
-    let mut by_time = Vec::new();
-    for (k, (scalar, name)) in SCALARS.into_iter().enumerate() {
-        // The exact foot is a level, as it has no factor.
-        let exact = of(scalar, true).find_map(|row| row.largest).unwrap_or(f64::NAN);
-        let factor = |row: &TorqueError| Some((row.factor?, row.largest?));
-        let level = of(scalar, false).filter_map(|row| Some((row.factor?, exact)));
-        let time = |row: &TorqueError| Some((row.tick?.median, row.largest?));
-        by_factor.push(curve(format!("big base, {name}"), k, of(scalar, false).filter_map(factor)));
-        by_factor.push(curve(format!("exact foot, {name}"), k + 2, level));
-        by_time.push(curve(format!("big base, {name}"), k, of(scalar, false).filter_map(time)));
-        by_time.push(curve(
-            format!("exact foot, {name}"),
-            k + 2,
-            of(scalar, true).filter_map(time),
-        ));
-    }
+    let by_factor = by_factor(precision);
+    let instructions = against(precision, |row| Some(row.instructions? as f64));
+    let time = against(precision, |row| Some(row.tick?.median));
     let tracking = |name: &str, k: usize, of: fn(&super::TrackingError) -> Option<f64>| {
         let points = precision.tracking.iter().filter_map(|row| Some((row.rate_hz, of(row)?)));
         curve(name.to_owned(), k, points)
@@ -51,7 +32,7 @@ pub fn controller_figures(
         Ok(PrecisionFigure { name, svg: chart.svg()?, says: sentence, note: String::new() })
     };
     let error = "largest error of a torque, relative";
-    Ok(vec![
+    let mut all = vec![
         figure(
             "factor",
             "torque error against the feet's mass",
@@ -61,14 +42,12 @@ pub fn controller_figures(
             factor_sentence(precision),
         )?,
         figure(
-            "tick",
+            "tick-time",
             "torque error against a tick's time",
             "computing time of a tick (s)",
             error,
-            by_time,
-            "Of the exact foot in f64 nothing is shown, as it is what the others are compared with. \
-             Instructions of a tick, which repeat exactly: `cargo xtask instructions biped`."
-                .to_owned(),
+            time,
+            "The same in time, which this machine and its other users decide.".to_owned(),
         )?,
         figure(
             "rate",
@@ -81,7 +60,89 @@ pub fn controller_figures(
             ],
             rate_sentence(precision),
         )?,
-    ])
+    ];
+    if precision.uncounted.is_none() {
+        let title = "torque error against a tick's instructions";
+        let counted = figure(
+            "tick",
+            title,
+            "instructions of a tick",
+            error,
+            instructions,
+            tick_sentence(precision),
+        )?;
+        all.insert(1, counted);
+    }
+    Ok(all)
+}
+
+/// Big bases by their mass, and the level of the exact foot, which has none.
+fn by_factor(precision: &ControllerPrecision) -> Vec<MarkedCurve> {
+    let mut all = Vec::new();
+    for (k, (scalar, name)) in SCALARS.into_iter().enumerate() {
+        let rows = || precision.torques.iter().filter(move |row| row.form.scalar == scalar);
+        let exact = rows().find(|row| is_plain(row)).and_then(|row| row.largest);
+        let factors = rows().filter_map(|row| Some((row.form.factor?, row.largest?)));
+        let level = rows().filter_map(|row| Some((row.form.factor?, exact?)));
+        all.push(curve(format!("big base, {name}"), k, factors));
+        all.push(curve(format!("exact foot, {name}"), k + 2, level));
+    }
+    all
+}
+
+/// Nothing left out, and feet held exactly.
+fn is_plain(row: &TorqueError) -> bool {
+    row.form.factor.is_none() && row.form.approximation.is_none()
+}
+
+/// All forms against what a tick costs.
+fn against(
+    precision: &ControllerPrecision,
+    cost: impl Fn(&TorqueError) -> Option<f64>,
+) -> Vec<MarkedCurve> {
+    type IsIn = fn(&TorqueError) -> bool;
+    let groups: [(&str, IsIn); 4] = [
+        ("big base", |row| row.form.factor.is_some()),
+        ("exact foot", is_plain),
+        ("dynamics held", |row| {
+            row.form.approximation.is_some_and(|left_out| left_out.held_for().is_some())
+        }),
+        ("no velocity products", |row| {
+            row.form.approximation == Some(Approximation::NoVelocityProducts)
+        }),
+    ];
+    let mut all = Vec::new();
+    for (group, (title, is_in)) in groups.into_iter().enumerate() {
+        for (k, (scalar, name)) in SCALARS.into_iter().enumerate() {
+            let rows = precision.torques.iter();
+            let rows = rows.filter(|row| row.form.scalar == scalar && is_in(row));
+            // Nothing is off by nothing on a logarithmic axis.
+            let points = rows.filter_map(|row| Some((cost(row)?, row.largest?)));
+            let points = points.filter(|(_, error)| *error > 0.0);
+            all.push(curve(format!("{title}, {name}"), 2 * group + k, points));
+        }
+    }
+    all.retain(|curve| !curve.points.is_empty());
+    all
+}
+
+/// What is saved by being less exact.
+fn tick_sentence(precision: &ControllerPrecision) -> String {
+    let exact = precision.torques.iter().find(|row| row.form == ControllerForm::EXACT);
+    let Some(exact) = exact.and_then(|row| row.instructions) else { return String::new() };
+    let f64s = precision.torques.iter().filter(|row| row.form.scalar == Scalar::F64);
+    let less = f64s.filter(|row| row.form.approximation.is_some()).filter_map(|row| {
+        let share = row.instructions? as f64 / exact as f64;
+        Some(format!(
+            "{} takes {share:.2} of that and is {:.1e} off at worst, {:.1e} at half of the ticks",
+            row.form, row.largest?, row.median?
+        ))
+    });
+    format!(
+        "The exact foot in f64, which others are compared with, takes {exact} instructions (by callgrind, the mean \
+         over Experiment 1). {}. The worst are at touch-down, where velocities jump.",
+        less.collect::<Vec<_>>().join("; ")
+    )
 }
 
 fn curve(name: String, style: usize, points: impl Iterator<Item = (f64, f64)>) -> MarkedCurve {
@@ -90,11 +151,12 @@ fn curve(name: String, style: usize, points: impl Iterator<Item = (f64, f64)>) -
 
 fn factor_sentence(precision: &ControllerPrecision) -> String {
     let each = SCALARS.map(|(scalar, name)| {
-        let rows = || precision.torques.iter().filter(move |row| row.scalar == scalar);
+        let all = precision.torques.iter().filter(|row| row.form.approximation.is_none());
+        let rows = || all.clone().filter(move |row| row.form.scalar == scalar);
         let best = rows()
-            .filter_map(|row| Some((row.largest?, row.factor?)))
+            .filter_map(|row| Some((row.largest?, row.form.factor?)))
             .min_by(|a, b| a.0.total_cmp(&b.0));
-        let exact = rows().find(|row| row.factor.is_none()).and_then(|row| row.largest);
+        let exact = rows().find(|row| is_plain(row)).and_then(|row| row.largest);
         let faults: usize = rows().map(|row| row.faults).sum();
         let best = best.map_or("fails".to_owned(), |(error, factor)| {
             format!("is best at a factor of {factor:.0e}, {error:.1e} off")

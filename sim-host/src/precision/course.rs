@@ -1,43 +1,11 @@
 //! A motion as it is measured, whatever makes its steps.
 
-use crate::integrators::{Progress, StepError, StepFailure, YOSHIDA_4, YOSHIDA_6};
+use crate::integrators::{Progress, StepError};
 use crate::mechanism::Moving;
-use crate::multibody::{BodyState, ConstrainedSimulation, Simulation, System};
+use crate::multibody::{BodyState, ConstrainedSimulation, System};
 use nalgebra::Vector3;
-use surefoot::dynamics::DynamicsFault;
+use std::sync::Arc;
 use surefoot::spatial::Quaternion;
-
-/// Why a course has ended.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Trouble {
-    /// A step could not be made.
-    #[error("{0}")]
-    Step(#[from] StepError),
-    /// The equations of motion have no solution.
-    #[error("at {time_s} s: {fault}")]
-    Dynamics {
-        /// s
-        time_s: f64,
-        /// Why.
-        fault: DynamicsFault,
-    },
-    /// The adaptive method cannot meet its tolerance.
-    #[error("at {time_s} s: {}", StepFailure::Adaptive)]
-    Adaptive {
-        /// s
-        time_s: f64,
-    },
-}
-
-impl Trouble {
-    /// When, s.
-    pub fn time_s(&self) -> f64 {
-        match self {
-            Self::Step(error) => error.time_s,
-            Self::Dynamics { time_s, .. } | Self::Adaptive { time_s } => *time_s,
-        }
-    }
-}
 
 /// What a motion should keep.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,20 +23,20 @@ pub trait Course {
     /// One step.
     ///
     /// # Errors
-    /// A [`Trouble`].
-    fn step(&mut self) -> Result<(), Trouble>;
+    /// A [`StepError`].
+    fn step(&mut self) -> Result<(), StepError>;
 
     /// Where it is: coordinates that are the same for all methods. Of bodies their landmarks.
     ///
     /// # Errors
-    /// A [`Trouble`] where that cannot be told.
-    fn place(&mut self) -> Result<Vec<f64>, Trouble>;
+    /// A [`StepError`] where that cannot be told.
+    fn place(&mut self) -> Result<Vec<f64>, StepError>;
 
     /// Energy, momentum and constraints.
     ///
     /// # Errors
-    /// A [`Trouble`] where the method's momentum belongs to no velocity.
-    fn conserved(&mut self) -> Result<Conserved, Trouble>;
+    /// A [`StepError`] where the method's momentum belongs to no velocity.
+    fn conserved(&mut self) -> Result<Conserved, StepError>;
 
     /// Time and statistics.
     fn progress(&self) -> &Progress;
@@ -95,15 +63,15 @@ pub fn landmarks(system: &System, states: &[BodyState]) -> Vec<f64> {
 pub struct OfMechanism(pub Box<dyn Moving>);
 
 impl Course for OfMechanism {
-    fn step(&mut self) -> Result<(), Trouble> {
-        Ok(self.0.step()?)
+    fn step(&mut self) -> Result<(), StepError> {
+        self.0.step()
     }
 
-    fn place(&mut self) -> Result<Vec<f64>, Trouble> {
+    fn place(&mut self) -> Result<Vec<f64>, StepError> {
         Ok(self.0.state()?.0)
     }
 
-    fn conserved(&mut self) -> Result<Conserved, Trouble> {
+    fn conserved(&mut self) -> Result<Conserved, StepError> {
         let (energy, momentum, constraint) = self.0.conserved()?;
         Ok(Conserved { energy, momentum, constraint })
     }
@@ -113,45 +81,32 @@ impl Course for OfMechanism {
     }
 }
 
-/// How the simulator's steps are composed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stages {
-    /// They are not; those that fail are made in shorter ones.
-    One,
-    /// To fourth order.
-    Yoshida4,
-    /// To sixth order.
-    Yoshida6,
-}
-
-/// Bodies in the multibody simulator, in joint coordinates.
+/// Bodies and joints, under any method: coordinates differ from method to method, landmarks do not.
 pub struct OfBodies {
     /// The motion.
-    pub simulation: Simulation,
-    /// How steps are composed.
-    pub stages: Stages,
+    pub moving: Box<dyn Moving>,
+    /// What moves.
+    pub system: Arc<System>,
 }
 
 impl Course for OfBodies {
-    fn step(&mut self) -> Result<(), Trouble> {
-        Ok(match self.stages {
-            Stages::One => self.simulation.step(),
-            Stages::Yoshida4 => self.simulation.step_in_stages(&YOSHIDA_4),
-            Stages::Yoshida6 => self.simulation.step_in_stages(&YOSHIDA_6),
-        }?)
+    fn step(&mut self) -> Result<(), StepError> {
+        self.moving.step()
     }
 
-    fn place(&mut self) -> Result<Vec<f64>, Trouble> {
-        Ok(landmarks(self.simulation.system(), &self.simulation.states()))
+    fn place(&mut self) -> Result<Vec<f64>, StepError> {
+        let (states, _) = self.moving.state()?;
+        let (states, _) = states.as_chunks::<7>();
+        Ok(landmarks(&self.system, states))
     }
 
-    fn conserved(&mut self) -> Result<Conserved, Trouble> {
-        let (energy, momentum, constraint) = Moving::conserved(&mut self.simulation)?;
+    fn conserved(&mut self) -> Result<Conserved, StepError> {
+        let (energy, momentum, constraint) = self.moving.conserved()?;
         Ok(Conserved { energy, momentum, constraint })
     }
 
     fn progress(&self) -> &Progress {
-        self.simulation.progress()
+        self.moving.progress()
     }
 }
 
@@ -164,34 +119,28 @@ pub struct OfConstrainedBodies {
 }
 
 impl Course for OfConstrainedBodies {
-    fn step(&mut self) -> Result<(), Trouble> {
-        Ok(self.simulation.step()?)
+    fn step(&mut self) -> Result<(), StepError> {
+        self.simulation.step()
     }
 
-    fn place(&mut self) -> Result<Vec<f64>, Trouble> {
+    fn place(&mut self) -> Result<Vec<f64>, StepError> {
         Ok(landmarks(self.simulation.system(), self.simulation.states()))
     }
 
-    fn conserved(&mut self) -> Result<Conserved, Trouble> {
+    fn conserved(&mut self) -> Result<Conserved, StepError> {
         let (states, rates) = (self.simulation.states(), self.simulation.rates()?);
-        Ok(conserved(self.simulation.system(), states, &rates, self.is_free))
+        let system = self.simulation.system();
+        Ok(Conserved {
+            energy: system.energy(states, &rates),
+            momentum: match self.is_free {
+                true => system.momentum(states, &rates).1.to_vec(),
+                false => Vec::new(),
+            },
+            constraint: system.largest_constraint(states),
+        })
     }
 
     fn progress(&self) -> &Progress {
         self.simulation.progress()
-    }
-}
-
-/// What bodies in this state and with these rates should keep.
-pub(super) fn conserved(
-    system: &System,
-    states: &[BodyState],
-    rates: &[BodyState],
-    is_free: bool,
-) -> Conserved {
-    Conserved {
-        energy: system.energy(states, rates),
-        momentum: if is_free { system.momentum(states, rates).1.to_vec() } else { Vec::new() },
-        constraint: system.largest_constraint(states),
     }
 }

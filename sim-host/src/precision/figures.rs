@@ -1,6 +1,7 @@
 //! The charts of a survey.
 
 use super::measure::Measurement;
+use super::peers::MUJOCO_INTEGRATORS;
 use super::sentences;
 use super::survey::Survey;
 use super::tree_contenders::{AT_MIDPOINTS, WITH_CONSTRAINTS};
@@ -84,7 +85,9 @@ pub fn figures(survey: &Survey) -> Result<Vec<PrecisionFigure>, ChartError> {
         let curve = |curve: &super::Curve| MarkedCurve {
             name: curve.method.clone(),
             style: style(&curve.method),
-            stands_out: stand_out.contains(&curve.method),
+            // Peers are shown only where they were asked for.
+            stands_out: stand_out.contains(&curve.method)
+                || survey.peers.iter().any(|peer| peer.method == curve.method),
             points: curve
                 .measurements
                 .iter()
@@ -93,8 +96,8 @@ pub fn figures(survey: &Survey) -> Result<Vec<PrecisionFigure>, ChartError> {
                 .filter(|(x, y)| *x > 0.0 && *y > 0.0)
                 .collect(),
         };
-        let curves: Vec<_> =
-            survey.curves.iter().map(curve).filter(|curve| !curve.points.is_empty()).collect();
+        let measured = survey.curves.iter().chain(&survey.peers);
+        let curves: Vec<_> = measured.map(curve).filter(|curve| !curve.points.is_empty()).collect();
         if curves.is_empty() {
             continue;
         }
@@ -132,6 +135,10 @@ fn words(survey: &Survey, axes: &Axes) -> (String, String) {
 fn style(method: &str) -> usize {
     let all = Method::all();
     let known = all.iter().position(|known| known.name() == method);
-    let own = [WITH_CONSTRAINTS, AT_MIDPOINTS].iter().position(|name| *name == method);
-    known.unwrap_or_else(|| all.len() + own.unwrap_or(2))
+    let mut others = [WITH_CONSTRAINTS, AT_MIDPOINTS]
+        .into_iter()
+        .chain(MUJOCO_INTEGRATORS.iter().map(|(name, ..)| *name));
+    // Peers' names begin with their versions.
+    let other = others.position(|name| method.ends_with(name));
+    known.unwrap_or_else(|| all.len() + other.unwrap_or(all.len()))
 }

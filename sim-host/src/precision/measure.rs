@@ -1,6 +1,7 @@
 //! One method with one step on one problem: what is played, and what is measured of it.
 
-use super::course::{Course, Trouble};
+use super::course::Course;
+use crate::integrators::StepError;
 use crate::mechanism::StartFailure;
 use cpu_time::ThreadTime;
 use serde::{Deserialize, Serialize};
@@ -32,9 +33,9 @@ pub struct Failed {
     pub reason: String,
 }
 
-impl From<Trouble> for Failed {
-    fn from(trouble: Trouble) -> Self {
-        Self { time_s: trouble.time_s(), reason: trouble.to_string() }
+impl From<StepError> for Failed {
+    fn from(error: StepError) -> Self {
+        Self { time_s: error.time_s, reason: error.to_string() }
     }
 }
 
@@ -73,8 +74,8 @@ const ENERGY_SAMPLES: u64 = 2000;
 /// Plays a course to the end of the span.
 pub fn play(course: &mut dyn Course, span: &Span, divisions: u32) -> Played {
     let mut played = Played::default();
-    if let Err(trouble) = advance(course, span, divisions, &mut played) {
-        played.failure = Some(trouble.into());
+    if let Err(error) = advance(course, span, divisions, &mut played) {
+        played.failure = Some(error.into());
     }
     let progress = course.progress();
     played.steps = progress.steps;
@@ -91,7 +92,7 @@ fn advance(
     span: &Span,
     divisions: u32,
     played: &mut Played,
-) -> Result<(), Trouble> {
+) -> Result<(), StepError> {
     let steps = u64::from(span.samples) * u64::from(divisions);
     let every = steps.div_ceil(ENERGY_SAMPLES);
     let first = course.conserved()?.momentum;

@@ -1,11 +1,14 @@
-//! The methods of chapter 2 on its mechanisms.
+//! All methods by name on a mechanism, as `run` runs them.
 
-use super::contender::{Contender, Start};
-use super::course::{Course, OfMechanism};
+use super::contender::{Contender, Foretell, Start};
+use super::course::{Course, OfBodies, OfMechanism};
 use super::problem::Omission;
-use crate::integrators::{Method, StartError};
-use crate::mechanism::{StartFailure, start_within};
+use crate::integrators::{Method, StartError, YOSHIDA_4, YOSHIDA_6, longest_stage};
+use crate::mechanism::{StartFailure, start_bodies, start_within};
+use crate::multibody::System;
 use crate::scene::{Mechanism, MechanismScene};
+use crate::stability::motion_of;
+use std::sync::Arc;
 
 /// All methods that take the mechanism, and those that do not.
 ///
@@ -16,6 +19,11 @@ pub(super) fn mechanism_contenders(
 ) -> Result<(Vec<Contender>, Vec<Omission>), StartFailure> {
     let (mut contenders, mut omitted) = (Vec::new(), Vec::new());
     let is_natural = !matches!(scene.mechanism, Mechanism::RigidBody { .. });
+    let system = match start_bodies(&scene.mechanism, scene.integrator.step_s) {
+        Ok(simulation) => Some(Arc::new(simulation.system().clone())),
+        Err(StartFailure::NoBodies) => None,
+        Err(failure) => return Err(failure),
+    };
     for method in Method::all().iter().copied() {
         let mut scene = scene.clone();
         scene.integrator.name = method;
@@ -29,18 +37,49 @@ pub(super) fn mechanism_contenders(
             }
             Err(failure) => return Err(failure),
         }
-        let start: Start = Box::new(move |h, tolerance| {
-            let mut scene = scene.clone();
-            scene.integrator.step_s = h;
-            let course: Box<dyn Course> = Box::new(OfMechanism(start_within(&scene, tolerance)?));
-            Ok(course)
-        });
+        let foretell = foretell(&scene, method, system.is_some());
+        let start = start(scene, system.clone());
         contenders.push(match method {
             Method::DormandPrince8 => Contender::adaptive(method.name(), start),
-            _ => Contender::stepping(method.name(), order(method, is_natural), start),
+            _ => Contender::stepping(method.name(), order(method, is_natural), start)
+                .foretold_by(foretell),
         });
     }
     Ok((contenders, omitted))
+}
+
+/// The scene's method, of bodies with their system.
+pub(super) fn start(scene: MechanismScene, system: Option<Arc<System>>) -> Start {
+    Box::new(move |h, tolerance| {
+        let mut scene = scene.clone();
+        scene.integrator.step_s = h;
+        let moving = start_within(&scene, tolerance)?;
+        let course: Box<dyn Course> = match &system {
+            Some(system) => Box::new(OfBodies { moving, system: Arc::clone(system) }),
+            None => Box::new(OfMechanism(moving)),
+        };
+        Ok(course)
+    })
+}
+
+/// Of mechanisms of chapter 2 what [`foretell`](crate::stability::foretell) says along the motion; of bodies what
+/// is foretold of the simulator's steps, of which each stage of a composition is one.
+fn foretell(scene: &MechanismScene, method: Method, has_bodies: bool) -> Foretell {
+    let scene = scene.clone();
+    let of_bodies = move |scene: &MechanismScene| {
+        let longest = match method {
+            Method::Variational => 1.0,
+            Method::Yoshida4 => longest_stage(&YOSHIDA_4),
+            Method::Yoshida6 => longest_stage(&YOSHIDA_6),
+            _ => return None,
+        };
+        let motion = motion_of(scene, scene.duration_s).ok()?.problem("", "");
+        Some(motion.forecast(Method::Variational)?.step_s? / longest)
+    };
+    Box::new(move || match has_bodies {
+        true => of_bodies(&scene),
+        false => start_within(&scene, 1e-3).ok()?.forecast_s(),
+    })
 }
 
 /// The endpoint rule is of second order only where masses are constant.

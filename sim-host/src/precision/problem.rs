@@ -4,10 +4,10 @@ use super::closed_loop::closed_loop;
 use super::contender::Contender;
 use super::measure::Span;
 use super::mechanism_contenders::mechanism_contenders;
-use super::tree_contenders::tree_contenders;
+use super::tree_contenders::{at_midpoints, with_constraints};
 use crate::mechanism::{StartFailure, start_bodies};
 use crate::multibody::System;
-use crate::scene::{AnyScene, Mechanism, MechanismScene};
+use crate::scene::{AnyScene, MechanismScene};
 use serde::{Deserialize, Serialize};
 
 /// A method that does not play a problem.
@@ -38,6 +38,8 @@ pub struct Problem {
     pub keeps_energy: bool,
     /// Where there is one.
     pub closed_form: Option<ClosedForm>,
+    /// Of a mechanism's scene.
+    pub scene: Option<MechanismScene>,
 }
 
 /// Times at which places are compared.
@@ -60,18 +62,18 @@ impl Problem {
     /// # Errors
     /// A [`StartFailure`] where no motion begins.
     pub fn of_mechanism(scene: &MechanismScene) -> Result<Self, StartFailure> {
-        let (contenders, omitted, keeps_energy) = match &scene.mechanism {
-            Mechanism::RigidBody { .. } | Mechanism::Pendulum { .. } => {
-                let (contenders, omitted) = mechanism_contenders(scene)?;
-                (contenders, omitted, true)
-            }
-            Mechanism::Chain { .. } | Mechanism::Multibody(_) | Mechanism::Biped(_) => {
-                let keeps_energy = keeps_energy(
-                    scene,
-                    start_bodies(&scene.mechanism, scene.integrator.step_s)?.system(),
-                );
-                let (contenders, omitted) = tree_contenders(scene)?;
-                (contenders, omitted, keeps_energy)
+        let (mut contenders, mut omitted) = mechanism_contenders(scene)?;
+        let keeps_energy = match start_bodies(&scene.mechanism, scene.integrator.step_s) {
+            Err(StartFailure::NoBodies) => true,
+            Err(failure) => return Err(failure),
+            Ok(simulation) => {
+                let system = simulation.system();
+                contenders.extend(at_midpoints(scene, system));
+                match with_constraints(scene, system) {
+                    Ok(contender) => contenders.push(contender),
+                    Err(omission) => omitted.push(omission),
+                }
+                keeps_energy(scene, system)
             }
         };
         Ok(Self {
@@ -82,16 +84,14 @@ impl Problem {
             omitted,
             keeps_energy,
             closed_form: None,
+            scene: Some(scene.clone()),
         })
     }
 }
 
 /// Nothing dissipates, and no motor works.
 fn keeps_energy(scene: &MechanismScene, system: &System) -> bool {
-    let is_still = match &scene.mechanism {
-        Mechanism::Multibody(bodies) => bodies.bodies.iter().all(|body| body.torque == 0.0),
-        _ => true,
-    };
+    let is_still = scene.mechanism.torques().iter().all(|torque| *torque == 0.0);
     let is_undamped = system.laws().iter().all(|(_, law)| law.damping == 0.0);
     is_still && is_undamped && system.ground().is_none() && system.strikers().is_empty()
 }

@@ -2,8 +2,8 @@
 //!
 //! The rule: of each method the longest step whose error, and that of all shorter ones, is at most half of
 //! what is wanted ([`ERROR_MARGIN`]), read between measured steps on logarithmic axes, and at most
-//! [`STEP_MARGIN`] of the shortest step at which it fails; of all methods the one that then takes the least
-//! time.
+//! [`STEP_MARGIN`] of the shortest step at which it fails and of the longest one that is foretold to work,
+//! whichever is shorter; of all methods the one that then takes the least time.
 
 use super::measure::Measurement;
 use super::sweep::Curve;
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 /// Share of the wanted accuracy that the expected error may have.
 pub const ERROR_MARGIN: f64 = 0.5;
-/// Share of the shortest step that fails.
+/// Share of the shortest step that fails, or of the longest one foretold to work.
 pub const STEP_MARGIN: f64 = 0.7;
 
 /// A method and a step.
@@ -31,6 +31,19 @@ pub struct Choice {
     pub evaluations: f64,
     /// The shortest step that fails, s, if one does.
     pub fails_from_s: Option<f64>,
+    /// The longest step foretold to work, s, where that was asked for and something is foretold.
+    pub foretold_s: Option<f64>,
+}
+
+impl Choice {
+    /// The shorter of the step seen to fail and the one foretold, s.
+    pub fn limit_s(&self) -> Option<f64> {
+        shorter(self.fails_from_s, self.foretold_s)
+    }
+}
+
+fn shorter(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    a.into_iter().chain(b).min_by(f64::total_cmp)
 }
 
 /// The shortest step of a curve that fails, s. A method that chooses its steps has none: with a tolerance
@@ -45,7 +58,8 @@ fn fails_from(curve: &Curve) -> Option<f64> {
 pub fn longest(curve: &Curve, accuracy: f64) -> Option<Choice> {
     let wanted = ERROR_MARGIN * accuracy;
     let fails_from_s = fails_from(curve);
-    let most = fails_from_s.map_or(f64::INFINITY, |h| STEP_MARGIN * h);
+    let foretold_s = curve.foretold_s;
+    let most = shorter(fails_from_s, foretold_s).map_or(f64::INFINITY, |h| STEP_MARGIN * h);
     let error = |m: &Measurement| m.error.filter(|_| m.failure.is_none());
     let fits = |m: &Measurement| error(m).is_some_and(|e| e <= wanted) && m.step_s <= most;
     // From the finest on, as long as all are fine.
@@ -71,6 +85,7 @@ pub fn longest(curve: &Curve, accuracy: f64) -> Option<Choice> {
         time_s: read.time_s,
         evaluations: read.evaluations,
         fails_from_s,
+        foretold_s,
     })
 }
 

@@ -111,7 +111,7 @@ struct Converged {
 
 /// Finer and finer until nothing changes any more, or round-off has the last word.
 fn converged(contender: &Contender, span: &Span, most_evaluations: u64) -> Option<Converged> {
-    let doubled: Vec<Level> = if contender.levels.iter().any(|l| l.tolerance.is_some()) {
+    let doubled: Vec<Level> = if contender.is_adaptive() {
         contender.levels.iter().rev().take(1).copied().collect()
     } else {
         let is_power = |l: &&Level| l.divisions.is_power_of_two();

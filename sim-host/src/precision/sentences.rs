@@ -153,9 +153,50 @@ pub fn losses(survey: &Survey) -> String {
     text
 }
 
+/// Who is quicker, the methods here or those of other simulators, and by how much.
+pub fn peers(survey: &Survey) -> String {
+    let mut text = String::new();
+    if survey.peers.is_empty() {
+        return text;
+    }
+    for accuracy in ACCURACIES {
+        let (ours, theirs) = (ranked(&survey.curves, accuracy), ranked(&survey.peers, accuracy));
+        let _ = match (ours.first(), theirs.first()) {
+            (Some(own), Some(other)) if ratio(other, own) >= 1.0 => {
+                let times = ratio(other, own);
+                write!(
+                    text,
+                    "At {accuracy:.0e} {} takes {times:.1} times the time of {}. ",
+                    other.method, own.method
+                )
+            }
+            (Some(own), Some(other)) => {
+                let times = ratio(own, other);
+                write!(
+                    text,
+                    "At {accuracy:.0e} {} takes {times:.1} times the time of {}. ",
+                    own.method, other.method
+                )
+            }
+            (Some(own), None) => {
+                write!(
+                    text,
+                    "At {accuracy:.0e} only methods here get there, {} first. ",
+                    own.method
+                )
+            }
+            (None, Some(other)) => {
+                write!(text, "At {accuracy:.0e} only {} gets there. ", other.method)
+            }
+            (None, None) => Ok(()),
+        };
+    }
+    text
+}
+
 /// Slopes beside known orders.
 pub fn slopes(survey: &Survey) -> String {
-    let each = survey.curves.iter().filter_map(|curve| {
+    let each = survey.curves.iter().chain(&survey.peers).filter_map(|curve| {
         let known = curve.order?;
         Some(match curve.fit {
             Some(fit) => format!("{} {:.2} (known: {known})", curve.method, fit.order),
@@ -171,7 +212,7 @@ pub fn ranges(
     what: &str,
     of: impl Fn(&super::Measurement) -> Option<f64>,
 ) -> String {
-    let each = survey.curves.iter().filter_map(|curve| {
+    let each = survey.curves.iter().chain(&survey.peers).filter_map(|curve| {
         let values: Vec<f64> = curve.measurements.iter().filter_map(&of).map(f64::abs).collect();
         let low = values.iter().copied().reduce(f64::min)?;
         let high = values.iter().copied().reduce(f64::max)?;
@@ -192,7 +233,7 @@ pub fn failures(curve: &Curve) -> Vec<String> {
 
 /// Points whose times are too far apart to trust, as steps.
 pub fn doubtful(survey: &Survey) -> String {
-    let all = survey.curves.iter().flat_map(|curve| &curve.measurements);
+    let all = survey.curves.iter().chain(&survey.peers).flat_map(|curve| &curve.measurements);
     let timed: Vec<_> = all.filter_map(|m| m.time).collect();
     let wide = timed.iter().filter(|time| time.is_doubtful()).count();
     let widest = timed.iter().map(|time| time.spread).fold(0.0, f64::max);

@@ -1,6 +1,8 @@
 //! All methods on a problem, kept as they are finished.
 
 use super::catalogue::{CatalogueError, problem};
+use super::contender::Contender;
+use super::peers::{Mujoco, NoMujoco, peer_contenders};
 use super::problem::Omission;
 use super::reference::{NoReference, Reference, reference};
 use super::sweep::{Curve, Effort, sweep};
@@ -9,6 +11,7 @@ use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// What was found on a problem.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,6 +30,8 @@ pub struct Survey {
     pub apart: f64,
     /// One for each method.
     pub curves: Vec<Curve>,
+    /// One for each method of other simulators, where these were asked for.
+    pub peers: Vec<Curve>,
     /// Methods that do not play it.
     pub omitted: Vec<Omission>,
 }
@@ -51,18 +56,20 @@ pub enum SurveyError {
 }
 
 /// Surveys a problem of the chart; each method is kept in a file of the folder as soon as it is finished, and
-/// taken up from there by the same program. `done` hears of each.
+/// taken up from there by the same program. `done` hears of each. `peers` are other simulators to measure beside
+/// them, if they are asked for; where they are not there, the survey says so.
 ///
 /// # Errors
 /// A [`SurveyError`].
 pub fn survey(
     name: &str,
     effort: &Effort,
+    peers: Option<&Result<Arc<Mujoco>, NoMujoco>>,
     folder: &Path,
     program: &[u8],
     done: &dyn Fn(&str),
 ) -> Result<Survey, SurveyError> {
-    let problem = problem(name)?;
+    let mut problem = problem(name)?;
     let mut hasher = DefaultHasher::new();
     (program, name, format!("{effort:?}")).hash(&mut hasher);
     let store = Store { folder, fingerprint: format!("{:016x}", hasher.finish()) };
@@ -75,20 +82,35 @@ pub fn survey(
         }
     };
     done("reference");
-    let mut curves = Vec::new();
-    for contender in &problem.contenders {
+    let found = |contender: &Contender| -> Result<Curve, SurveyError> {
         let part = format!("{name}-{}", contender.name);
-        let curve: Curve = match store.kept(&part)? {
+        let curve = match store.kept(&part)? {
             Some(curve) => curve,
             None => {
-                let curve = sweep(&problem, contender, &exact, effort);
+                let foretold_s = (contender.foretell)();
+                let curve = Curve { foretold_s, ..sweep(&problem, contender, &exact, effort) };
                 store.keep(&part, &curve)?;
                 curve
             }
         };
-        curves.push(curve);
         done(&contender.name);
-    }
+        Ok(curve)
+    };
+    let curves: Vec<Curve> = problem.contenders.iter().map(found).collect::<Result<_, _>>()?;
+    let others = match peers {
+        None => Ok(Vec::new()),
+        Some(Ok(mujoco)) => peer_contenders(&problem, mujoco),
+        Some(Err(error)) => {
+            Err(Omission { method: "MuJoCo".to_owned(), reason: error.to_string() })
+        }
+    };
+    let peers = match others {
+        Ok(others) => others.iter().map(found).collect::<Result<_, _>>()?,
+        Err(omission) => {
+            problem.omitted.push(omission);
+            Vec::new()
+        }
+    };
     Ok(Survey {
         problem: problem.name,
         description: problem.description,
@@ -97,6 +119,7 @@ pub fn survey(
         checked_by: exact.checked_by,
         apart: exact.apart,
         curves,
+        peers,
         omitted: problem.omitted,
     })
 }

@@ -36,6 +36,8 @@ pub struct Curve {
     pub fit: Option<Fit>,
     /// Coarsest first.
     pub measurements: Vec<Measurement>,
+    /// The longest step foretold to work, s, where that was asked for and something is foretold.
+    pub foretold_s: Option<f64>,
 }
 
 /// Repeats of short runs at most.
@@ -75,7 +77,8 @@ pub fn sweep(
         Some(_) => fitted(&measurements, reference.apart),
         None => None,
     };
-    Curve { method: contender.name.clone(), order: contender.order, fit, measurements }
+    let (method, order) = (contender.name.clone(), contender.order);
+    Curve { method, order, fit, measurements, foretold_s: None }
 }
 
 /// Median of several runs.

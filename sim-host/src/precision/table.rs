@@ -33,7 +33,7 @@ struct Row<'a> {
 pub fn write_rows(path: &Path, surveys: &[Survey]) -> Result<(), csv::Error> {
     let mut writer = csv::Writer::from_path(path)?;
     for survey in surveys {
-        for curve in &survey.curves {
+        for curve in survey.curves.iter().chain(&survey.peers) {
             for m in &curve.measurements {
                 writer.serialize(Row {
                     problem: &survey.problem,

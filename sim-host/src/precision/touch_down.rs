@@ -2,12 +2,12 @@
 //! a damped spring. Twenty heights, so that touch-down is anywhere within a step.
 
 use super::contender::{Contender, Start};
-use super::course::{Conserved, Course, Trouble};
+use super::course::{Conserved, Course};
 use super::measure::Span;
 use super::problem::Problem;
 use super::tree_contenders::AT_MIDPOINTS;
 use crate::contact::{Floor, Switching};
-use crate::integrators::{Method, Progress};
+use crate::integrators::{Method, Progress, StepError};
 use crate::multibody::{Body, Joint, JointConstraint, Link, Simulation, Site, System, SystemError};
 
 /// How many.
@@ -57,6 +57,7 @@ pub(super) fn touch_down() -> Problem {
                 .map(|sample| (0..BALLS).map(|ball| exact(height(ball), time(sample))).collect())
                 .collect()
         })),
+        scene: None,
     }
 }
 
@@ -103,7 +104,7 @@ impl Balls {
 }
 
 impl Course for Balls {
-    fn step(&mut self) -> Result<(), Trouble> {
+    fn step(&mut self) -> Result<(), StepError> {
         let mut together = Progress::new(self.progress.h);
         for ball in &mut self.all {
             ball.step()?;
@@ -118,11 +119,11 @@ impl Course for Balls {
         Ok(())
     }
 
-    fn place(&mut self) -> Result<Vec<f64>, Trouble> {
+    fn place(&mut self) -> Result<Vec<f64>, StepError> {
         Ok(self.all.iter().map(|ball| ball.state(0)[2]).collect())
     }
 
-    fn conserved(&mut self) -> Result<Conserved, Trouble> {
+    fn conserved(&mut self) -> Result<Conserved, StepError> {
         Ok(Conserved { energy: 0.0, momentum: Vec::new(), constraint: 0.0 })
     }
 

@@ -57,6 +57,7 @@ fn advice(nearest: &Option<&'static str>) -> String {
 }
 
 /// A scene of either kind.
+#[expect(clippy::large_enum_variant, reason = "a program holds one or a dozen of them")]
 #[derive(Clone, Debug, PartialEq)]
 pub enum AnyScene {
     /// A robot under its controller.
@@ -128,6 +129,7 @@ pub fn parse(name: &str, text: &str) -> Result<AnyScene, SceneError> {
     if table.contains_key("mechanism") {
         let mut scene: MechanismScene = toml::from_str(text).map_err(syntax)?;
         name.clone_into(&mut scene.name);
+        scene.is_unadvised = !table.contains_key("integrator");
         scene.check()?;
         return Ok(AnyScene::Mechanism(scene));
     }

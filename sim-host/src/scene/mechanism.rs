@@ -20,9 +20,33 @@ pub struct MechanismScene {
     /// Simulated time, s.
     pub duration_s: f64,
     /// Method and step.
+    #[serde(default)]
     pub integrator: Integrator,
+    /// Whether the file names no method and no step, so that `run` has to take advice.
+    #[serde(skip)]
+    pub is_unadvised: bool,
+    /// What matters.
+    #[serde(default, skip_serializing_if = "MotionMatters::is_default")]
+    pub matters: MotionMatters,
     /// What moves.
     pub mechanism: Mechanism,
+}
+
+/// What matters in a motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MotionMatters {
+    /// Largest error of the trajectory, over how far the motion reaches: the method and the step of the scene are
+    /// those that `surefoot advise` recommends for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<f64>,
+}
+
+impl MotionMatters {
+    /// Whether nothing was said.
+    pub fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// What moves, and from where.
@@ -108,13 +132,23 @@ pub struct Link {
     pub rates_deg_s: [f64; 2],
 }
 
+/// Methods on bodies and joints.
+const METHODS_FOR_BODIES: [Method; 6] = [
+    Method::Variational,
+    Method::Yoshida4,
+    Method::Yoshida6,
+    Method::SemiImplicitEuler,
+    Method::RungeKutta4,
+    Method::DormandPrince8,
+];
 /// Links that a pendulum may have: its equations have a size known at compile time.
 pub const MOST_LINKS: usize = 4;
 /// Links that a chain may have: what its state files can be read with.
 pub const MOST_CHAIN_LINKS: usize = 10_000;
 
 impl MechanismScene {
-    /// The same with another number of links, each new one like the last.
+    /// The same with another number of links, each new one like the last. It is another motion, for which nothing is
+    /// recommended yet: it has the simulator's own method and step.
     ///
     /// # Errors
     /// [`SceneError::Value`] for a mechanism without links, or more than there may be.
@@ -130,6 +164,7 @@ impl MechanismScene {
                 return Err(self.wrong("--links", number, "a scene with links".into()));
             }
         }
+        (self.integrator, self.matters) = (Integrator::default(), MotionMatters::default());
         self.check()?;
         Ok(self)
     }
@@ -139,14 +174,14 @@ impl MechanismScene {
         SceneError::Value { name, field, value: format!("{value:?}"), expected }
     }
 
-    /// Bodies in the multibody simulator have one method.
+    /// Bodies and joints have these methods; some take not all of them, which their start says.
     fn check_method(&self) -> Result<(), SceneError> {
         let method = self.integrator.name;
-        if method == Method::Variational {
+        if METHODS_FOR_BODIES.contains(&method) {
             return Ok(());
         }
-        let expected = format!("{} for bodies and joints", Method::Variational);
-        Err(self.wrong("integrator.name", method, expected))
+        let names = METHODS_FOR_BODIES.map(Method::name).join(", ");
+        Err(self.wrong("integrator.name", method, format!("for bodies and joints one of {names}")))
     }
 
     /// Checks what a file may get wrong.
@@ -155,6 +190,15 @@ impl MechanismScene {
     /// [`SceneError::Value`].
     pub fn check(&self) -> Result<(), SceneError> {
         super::check::duration_and_step(&self.name, self.duration_s, self.integrator.step_s)?;
+        if let Some(accuracy) = self.matters.accuracy
+            && !(accuracy > 0.0 && accuracy < 1.0)
+        {
+            return Err(self.wrong(
+                "matters.accuracy",
+                accuracy,
+                "a number between 0 and 1".into(),
+            ));
+        }
         match &self.mechanism {
             Mechanism::RigidBody { inertia_kg_m2, orientation, angular_velocity_rad_s } => {
                 let [a, b, c] = *inertia_kg_m2;
@@ -240,6 +284,14 @@ impl MechanismScene {
 }
 
 impl Mechanism {
+    /// Held in joints, by link, N·m or N; empty where none can be.
+    pub fn torques(&self) -> Vec<f64> {
+        match self {
+            Self::Multibody(bodies) => bodies.bodies.iter().map(|body| body.torque).collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// The motion of a biped afloat, with steps of `h`.
     ///
     /// # Errors

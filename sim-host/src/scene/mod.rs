@@ -16,7 +16,7 @@ pub use builtin::{BuiltIn, built_in};
 pub use disturbance::{Block, Push, StruckBox};
 pub use hardware::{Acting, JointStops, Sensing};
 pub use load::{AnyScene, SceneError, load, open, parse};
-pub use mechanism::{Flight, Link, MOST_LINKS, Mechanism, MechanismScene};
+pub use mechanism::{Flight, Link, MOST_LINKS, Mechanism, MechanismScene, MotionMatters};
 pub use multibody::{BodyEntry, BuildError, JointEntry, LoopEntry, Misdescribed, Multibody};
 pub use rung::{LUMPED_DEVIATION_M, Matters, ModelChoice, Rung};
 
@@ -87,6 +87,13 @@ pub struct Integrator {
     pub name: Method,
     /// Step, s.
     pub step_s: f64,
+}
+
+impl Default for Integrator {
+    /// The multibody simulator's own, in steps of a millisecond.
+    fn default() -> Self {
+        Self { name: Method::Variational, step_s: 1e-3 }
+    }
 }
 
 /// The robot's start, at rest.

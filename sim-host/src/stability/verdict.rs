@@ -3,6 +3,7 @@
 use crate::integrators::{Motion, StartError, StepError, StepFailure};
 use crate::newton::NewtonFailure;
 use serde::{Deserialize, Serialize};
+use surefoot::dynamics::DynamicsFault;
 
 /// How a motion ended.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -69,6 +70,8 @@ impl From<StepError> for FailureKind {
             StepFailure::WrongBranch => Self::WrongBranch,
             StepFailure::TooManySplits { .. } | StepFailure::GimbalLock { .. } => Self::NoRoot,
             StepFailure::Adaptive => Self::Tolerance,
+            StepFailure::Dynamics(DynamicsFault::SingularInertia { .. }) => Self::Singular,
+            StepFailure::Dynamics(_) => Self::NotFinite,
             StepFailure::Newton(NewtonFailure::NoRootNearby { .. }) => Self::NoRoot,
             StepFailure::Newton(NewtonFailure::SingularJacobian { .. }) => Self::Singular,
             StepFailure::Newton(NewtonFailure::NotFinite) => Self::NotFinite,

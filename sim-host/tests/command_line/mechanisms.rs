@@ -73,15 +73,22 @@ fn models_of_mechanisms_are_told_and_chosen() {
 #[test]
 fn a_mechanism_that_fails_says_why() {
     let folder = folder("mechanism-failures");
-    let too_long = ["run", "rigid-body", "--step", "0.3", "--json"];
+    let too_long = ["run", "rigid-body", "--integrator", "variational", "--step", "0.3", "--json"];
     let (status, stdout, _) = said(&surefoot(&folder, &too_long));
     assert_eq!(status, Some(1));
     let document: Value = serde_json::from_str(&stdout).expect("one document");
     assert_eq!(document["failure"]["kind"], "no-root");
     assert!(document["failure"]["advice"].as_str().is_some_and(|a| a.contains("foretold")));
-    let cases: [(&[&str], &[&str]); 8] = [
+    let cases: [(&[&str], &[&str]); 12] = [
         (&["chain", "--integrator", "rattle"], &["integrator.name", "variational"]),
         (&["chain", "--links", "0"], &["links", "0", "1 to"]),
+        (
+            &["chain", "--links", "14", "--integrator", "runge-kutta-4"],
+            &["runge-kutta-4", "thirteen bodies"],
+        ),
+        (&["four-bar", "--integrator", "dormand-prince-8"], &["closed loops"]),
+        (&["box-drop", "--integrator", "yoshida-4"], &["yoshida-4", "touch nothing"]),
+        (&["chain", "--accuracy", "1"], &["--accuracy", "between 0 and 1"]),
         (&["rigid-body", "--integrator", "rattle"], &["rattle", "natural systems"]),
         (&["n-pendulum", "--integrator", "verlet"], &["verlet", "without constraints"]),
         (&["n-pendulum", "--links", "9"], &["links", "9", "1 to 4"]),
@@ -97,6 +104,68 @@ fn a_mechanism_that_fails_says_why() {
             assert!(stderr.contains(word), "{arguments:?} says {stderr:?}, without {word:?}");
         }
     }
+}
+
+/// A scene that names no method is advised on one; one that says what it was recommended for says so; the command
+/// line has the last word on each.
+#[test]
+fn a_run_says_where_its_method_and_step_come_from() {
+    let folder = folder("recommended");
+    let whole = include_str!("../../scenes/spherical-pendulum.toml");
+    let (head, rest) = whole.split_once("[integrator]").expect("a method");
+    let (_, mechanism) = rest.split_once("[mechanism]").expect("a mechanism");
+    let open =
+        format!("{head}[mechanism]{mechanism}").replace("duration_s = 30.0", "duration_s = 1.0");
+    let path = folder.join("open.toml");
+    std::fs::write(&path, open).expect("writable");
+    let open = path.to_str().expect("UTF-8");
+    let run = |arguments: &[&str]| -> Value {
+        let all = [&["run"], arguments, &["--json"]].concat();
+        let (status, stdout, stderr) = said(&surefoot(&folder, &all));
+        assert_eq!(status, Some(0), "{arguments:?}: {stderr}");
+        serde_json::from_str(&stdout).expect("one document")
+    };
+    // Arguments, what they make the method and the step, and words of the reason.
+    type Case<'a> = (&'a [&'a str], Option<&'a str>, Option<f64>, &'a [&'a str]);
+    let cases: [Case<'_>; 6] = [
+        (&[open], None, None, &["advised for an error of 1e-4", "when tried"]),
+        (&[open, "--integrator", "rattle"], Some("rattle"), None, &["command line", "advised"]),
+        (&[open, "--step", "0.01"], None, Some(0.01), &["command line", "advised"]),
+        (
+            &[open, "--step", "0.01", "--integrator", "shake", "--accuracy", "0.01"],
+            Some("shake"),
+            Some(0.01),
+            &["named on the command line"],
+        ),
+        (
+            &["spherical-pendulum", "--duration", "1"],
+            Some("runge-kutta-4-projected"),
+            Some(0.02),
+            &["recommended for an error of 1e-4"],
+        ),
+        (
+            &["four-bar", "--duration", "1"],
+            Some("variational"),
+            Some(1e-3),
+            &["named by the scene"],
+        ),
+    ];
+    for (arguments, method, step, words) in cases {
+        let document = run(arguments);
+        assert!(method.is_none_or(|name| document["integrator"] == name), "{document}");
+        assert!(step.is_none_or(|h| document["step_s"] == h), "{document}");
+        let reason = document["integrator_reason"].as_str().expect("a reason");
+        for word in words {
+            assert!(reason.contains(word), "{arguments:?}: {reason}");
+        }
+    }
+    // A method of low order needs shorter steps for more.
+    let step = |accuracy: &str| {
+        let document = run(&[open, "--integrator", "rattle", "--accuracy", accuracy]);
+        document["step_s"].as_f64().expect("a step")
+    };
+    let (coarse, fine) = (step("1e-2"), step("1e-4"));
+    assert!((5.0..20.0).contains(&(coarse / fine)), "{coarse} {fine}");
 }
 
 /// Values that a mechanism's file may get wrong.
@@ -119,7 +188,8 @@ fn a_wrong_mechanism_is_refused_with_its_place() {
         (0, "kind = \"rigid-body\"", "kind = \"jelly\"", ["jelly", "pendulum"]),
         (1, "gravity_m_s2 = 9.81", "gravity_m_s2 = inf", ["gravity", "finite"]),
         (1, "length_m = 0.5", "length_m = -0.5", ["links[0]", "above zero"]),
-        (1, "step_s = 2e-3", "step_s = 0.0", ["integrator.step_s", "above zero"]),
+        (1, "step_s = 2e-2", "step_s = 0.0", ["integrator.step_s", "above zero"]),
+        (1, "accuracy = 1e-4", "accuracy = 1.5", ["matters.accuracy", "between"]),
         (1, "duration_s = 20.0", "duration_s = nan", ["duration_s", "above zero"]),
     ] {
         assert!(scenes[scene].contains(line), "{line}");

@@ -3,7 +3,7 @@
 use surefoot_sim::closed_loop::{self, Scalar};
 use surefoot_sim::mechanism;
 use surefoot_sim::record::SavedRun;
-use surefoot_sim::scene::{AnyScene, open};
+use surefoot_sim::scene::{AnyScene, Integrator, MechanismScene, open};
 
 /// By way of the file.
 fn written_and_read(saved: Option<SavedRun>, name: &str) -> SavedRun {
@@ -18,10 +18,17 @@ fn written_and_read(saved: Option<SavedRun>, name: &str) -> SavedRun {
     read
 }
 
+/// Under the method that can be taken up again, whatever is recommended for the scene.
+fn mechanism_scene(name: &str) -> MechanismScene {
+    let AnyScene::Mechanism(mut scene) = open(name).expect("built in") else { unreachable!() };
+    scene.integrator = Integrator::default();
+    scene
+}
+
 #[test]
 fn mechanisms_go_on_to_the_same_bits() {
     for name in ["box-drop", "four-bar", "biped-flight", "chain", "hinged-chain"] {
-        let AnyScene::Mechanism(mut scene) = open(name).expect("built in") else { unreachable!() };
+        let mut scene = mechanism_scene(name);
         scene.duration_s = 1.0;
         let whole = mechanism::run(&scene, &mut |_| {}).expect("a run");
         // In the midst of the box's impacts.
@@ -65,7 +72,7 @@ fn controlled_robots_go_on_to_the_same_bits() {
 #[test]
 fn what_belongs_to_another_run_is_refused() {
     let saved = |name: &str| {
-        let AnyScene::Mechanism(mut scene) = open(name).expect("built in") else { unreachable!() };
+        let mut scene = mechanism_scene(name);
         scene.duration_s = 0.01;
         let run = mechanism::run(&scene, &mut |_| {}).expect("a run");
         (scene, run.saved.expect("saved"))

@@ -4,9 +4,11 @@ use rand::RngExt;
 use surefoot_sim::integrators::Method;
 use surefoot_sim::multibody::ChainJoint;
 use surefoot_sim::precision::{
-    Advice, AdviceError, Choice, Contender, Effort, Level, Problem, advise, distance, timed,
+    Advice, AdviceError, Among, Choice, Contender, Effort, Level, Problem, advise, distance, timed,
 };
-use surefoot_sim::scene::{AnyScene, Flight, Integrator, Link, Mechanism, MechanismScene, open};
+use surefoot_sim::scene::{
+    AnyScene, Flight, Integrator, Link, Mechanism, MechanismScene, MotionMatters, open,
+};
 use surefoot_tests::random_trees::random;
 
 /// Small enough for thirty of them.
@@ -26,6 +28,8 @@ fn scene(seed: u64) -> (MechanismScene, f64) {
         description: "random".to_owned(),
         duration_s: uniform(0.8, 1.6),
         integrator: Integrator { name: Method::Variational, step_s: 1e-3 },
+        is_unadvised: false,
+        matters: MotionMatters::default(),
         mechanism,
     };
     scene.check().expect("a scene");
@@ -153,7 +157,7 @@ fn thirty_random_scenes_are_advised_rightly() {
     for seed in 0..30 {
         let (scene, accuracy) = scene(seed);
         let problem = Problem::of_mechanism(&scene).expect("a motion");
-        let advice = advise(&problem, accuracy, &EFFORT)
+        let advice = advise(&problem, accuracy, Among::All, &EFFORT)
             .unwrap_or_else(|error| panic!("seed {seed}, {scene:?}: {error}"));
         let exact = independent(&problem, &advice)
             .unwrap_or_else(|| panic!("seed {seed}: nothing to compare with"));
@@ -180,7 +184,7 @@ fn thirty_random_scenes_are_advised_rightly() {
 fn no_advice_beyond_what_the_reference_is_sure_of() {
     let (scene, _) = scene(0);
     let problem = Problem::of_mechanism(&scene).expect("a motion");
-    let error = advise(&problem, 1e-16, &EFFORT).expect_err("beyond round-off");
+    let error = advise(&problem, 1e-16, Among::All, &EFFORT).expect_err("beyond round-off");
     assert!(matches!(error, AdviceError::Unsure { .. }), "{error}");
 }
 
@@ -193,7 +197,7 @@ fn a_tolerance_that_is_too_loose_rules_no_method_out() {
     };
     let problem = Problem::of_mechanism(&scene).expect("a motion");
     let effort = Effort { most_evaluations: 60_000, ..EFFORT };
-    let advice = advise(&problem, 1e-4, &effort).expect("advice");
+    let advice = advise(&problem, 1e-4, Among::All, &effort).expect("advice");
     let ranked = [&advice.choice].into_iter().chain(&advice.others);
     let methods: Vec<&str> = ranked.map(|choice| choice.method.as_str()).collect();
     assert!(methods.contains(&"dormand-prince-8"), "{methods:?}; {:?}", advice.too_coarse);

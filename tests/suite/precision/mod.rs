@@ -2,7 +2,9 @@
 
 mod advice;
 mod controller;
+mod defaults;
 mod orders;
+mod peers;
 mod repeats;
 
 use surefoot_sim::precision::Effort;

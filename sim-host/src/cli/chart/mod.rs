@@ -44,6 +44,9 @@ pub struct Options {
     /// Of `work-precision`: only this problem; may be given more than once
     #[arg(long)]
     problem: Vec<String>,
+    /// Of `work-precision`: MuJoCo too, on the same models in the same run
+    #[arg(long)]
+    peers: bool,
     /// Where the page, the drawings and the tables go
     #[arg(long, default_value = "out/chart")]
     out: PathBuf,

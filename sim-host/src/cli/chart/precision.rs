@@ -2,13 +2,14 @@
 
 use super::{Made, Options, this_program};
 use crate::precision::{
-    ControllerPrecision, Effort, PROBLEMS, Survey, controller_figures, controller_precision,
-    figures, file_of, machine, precision_chapter, survey, write_rows,
+    ControllerPrecision, Effort, Mujoco, PROBLEMS, Survey, controller_figures,
+    controller_precision, figures, file_of, machine, precision_chapter, survey, write_rows,
 };
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Duration;
 
 /// Charts all problems, or those that are asked for.
@@ -18,7 +19,7 @@ pub(super) fn chart(options: &Options) -> Result<Made, String> {
         asked => asked.iter().map(String::as_str).collect(),
     };
     let surveys = find(&names, options)?;
-    let controller = controller_precision().map_err(|error| error.to_string())?;
+    let controller = controller_precision(true).map_err(|error| error.to_string())?;
     let json = json!({
         "chart": "work-precision", "machine": machine(), "surveys": surveys, "controller": controller,
     });
@@ -36,13 +37,18 @@ fn find(names: &[&str], options: &Options) -> Result<Vec<Survey>, String> {
         std::fs::remove_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     }
     let program = this_program()?;
+    let peers = options.peers.then(|| Mujoco::start().map(Arc::new));
+    if let Some(Err(error)) = &peers {
+        eprintln!("without peers: {error}");
+    }
     let bar = ProgressBar::new_spinner();
     bar.enable_steady_tick(Duration::from_millis(500));
     let each = names.iter().enumerate().map(|(k, name)| {
         bar.set_message(format!("{name} ({} of {})", k + 1, names.len()));
         let done =
             |part: &str| bar.set_message(format!("{name} ({} of {}): {part}", k + 1, names.len()));
-        survey(name, &Effort::CHART, &folder, &program, &done).map_err(|error| error.to_string())
+        survey(name, &Effort::CHART, peers.as_ref(), &folder, &program, &done)
+            .map_err(|error| error.to_string())
     });
     let all = each.collect();
     bar.finish_and_clear();
@@ -94,7 +100,7 @@ fn text(surveys: &[Survey]) -> String {
             "  {:<26}{:>7}{:>7}{:>11}{:>11}{:>13}{:>12}",
             "method", "order", "fitted", "step, s", "error", "time, ms/s", "band, J"
         );
-        for curve in &survey.curves {
+        for curve in survey.curves.iter().chain(&survey.peers) {
             for (place, m) in curve.measurements.iter().enumerate() {
                 let (name, order, fit) = match place {
                     0 => (
@@ -132,19 +138,23 @@ fn controller_text(controller: &ControllerPrecision) -> String {
     let number = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.1e}"));
     let _ = writeln!(
         out,
-        "  {:<16}{:<8}{:>12}{:>12}{:>9}{:>12}",
-        "feet", "scalar", "worst", "median", "faults", "tick, µs"
+        "  {:<22}{:<8}{:>12}{:>12}{:>9}{:>14}{:>12}",
+        "form", "scalar", "worst", "median", "faults", "instructions", "tick, µs"
     );
     for row in &controller.torques {
-        let feet = row.factor.map_or("exact".to_owned(), |factor| format!("{factor:.0e}"));
-        let scalar = format!("{:?}", row.scalar).to_lowercase();
+        let (form, count) = (row.form.to_string(), row.instructions);
+        let count = count.map_or("–".to_owned(), |count| count.to_string());
+        let scalar = format!("{:?}", row.form.scalar).to_lowercase();
         let tick = row.tick.map_or("–".to_owned(), |tick| format!("{:.2}", 1e6 * tick.median));
         let (worst, median) = (number(row.largest), number(row.median));
         let _ = writeln!(
             out,
-            "  {feet:<16}{scalar:<8}{worst:>12}{median:>12}{:>9}{tick:>12}",
+            "  {form:<22}{scalar:<8}{worst:>12}{median:>12}{:>9}{count:>14}{tick:>12}",
             row.faults
         );
+    }
+    if let Some(reason) = &controller.uncounted {
+        let _ = writeln!(out, "  instructions: {reason}");
     }
     let _ = writeln!(out, "  {:<12}{:>16}{:>20}", "rate, Hz", "position, m", "orientation, rad");
     for row in &controller.tracking {

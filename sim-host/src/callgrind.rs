@@ -1,8 +1,9 @@
-//! Instructions of steps, by callgrind on this program itself: what a run with two copies of a model executes
-//! more than one with one copy is that model's steps, and nothing else.
+//! Instructions that this program executes, by valgrind's tool callgrind, for what it is asked to do.
 
+use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Why instructions have not been counted.
 #[derive(Debug, thiserror::Error)]
@@ -15,30 +16,29 @@ pub enum CountFailure {
     NoCount(String),
 }
 
-/// Instructions of one step, the mean over so many seconds of a motion: that of the scene which can be opened by
-/// `name`, on the rung of this name.
+/// Instructions of a run of this program with these arguments, its start and end included.
 ///
 /// # Errors
 /// A [`CountFailure`].
-pub fn count(name: &str, duration_s: f64, rung: &str, steps: u64) -> Result<u64, CountFailure> {
-    let total = |copies: usize| total(name, duration_s, rung, copies);
-    let (one, two) = (total(1)?, total(2)?);
-    Ok(two.saturating_sub(one) / steps.max(1))
-}
-
-fn total(name: &str, duration_s: f64, rung: &str, copies: usize) -> Result<u64, CountFailure> {
+///
+/// # Cost
+/// Some fifty times the run's own time, and half a second.
+pub fn instructions(arguments: &[&OsStr]) -> Result<u64, CountFailure> {
+    // Files of runs at the same time are not each other's.
+    static RUNS: AtomicU32 = AtomicU32::new(0);
+    let no_count = |reason: &dyn std::fmt::Display| CountFailure::NoCount(reason.to_string());
     let program = std::env::current_exe().map_err(|error| no_count(&error))?;
-    let file = std::env::temp_dir()
-        .join(format!("surefoot-{}-{rung}-{copies}.callgrind", std::process::id()));
+    let run = RUNS.fetch_add(1, Ordering::Relaxed);
+    let file =
+        std::env::temp_dir().join(format!("surefoot-{}-{run}.callgrind", std::process::id()));
     let output = Command::new("valgrind")
         .args(["--quiet", "--tool=callgrind"])
         .arg(format!("--callgrind-out-file={}", file.display()))
         .arg(program)
-        .args(["count-steps", name, rung, &copies.to_string()])
-        .args(["--duration", &duration_s.to_string()])
+        .args(arguments)
         .output()
         .map_err(CountFailure::NoValgrind)?;
-    let found = read(&file);
+    let found = total(&file);
     // It may not have been made.
     let _ = std::fs::remove_file(&file);
     if !output.status.success() {
@@ -47,11 +47,7 @@ fn total(name: &str, duration_s: f64, rung: &str, copies: usize) -> Result<u64, 
     found.ok_or_else(|| no_count(&"its file has no total"))
 }
 
-fn read(file: &Path) -> Option<u64> {
+fn total(file: &Path) -> Option<u64> {
     let text = std::fs::read_to_string(file).ok()?;
     text.lines().rev().find_map(|line| line.strip_prefix("totals: "))?.trim().parse().ok()
-}
-
-fn no_count(reason: &dyn std::fmt::Display) -> CountFailure {
-    CountFailure::NoCount(reason.to_string())
 }

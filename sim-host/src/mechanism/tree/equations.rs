@@ -3,17 +3,15 @@
 //! A tree's sizes are known when it is compiled. Here are those of serial and branching trees up to
 //! [`MOST_LINKS`] bodies, all on joints of one coordinate, the first perhaps afloat.
 
-use crate::multibody::{BodyState, JointConstraint, JointLaw, Simulation, System, states_of_tree};
-use nalgebra::Vector3;
+use crate::multibody::{BodyState, JointLaw, states_of_tree};
 use surefoot::dynamics::{DynamicsFault, forward_dynamics, joint_poses, position_rates};
 use surefoot::model::{Link, Tree};
-use surefoot::spatial::Quaternion;
 
 /// Bodies at most.
-pub const MOST_LINKS: usize = 13;
+pub(super) const MOST_LINKS: usize = 13;
 
 /// The differential equations of a tree, from its start on: angles are counted from there.
-pub trait TreeModel: Send + Sync {
+pub(super) trait TreeModel: Send + Sync {
     /// Positions and velocities at the start.
     fn start(&self) -> (Vec<f64>, Vec<f64>);
 
@@ -50,7 +48,7 @@ pub trait TreeModel: Send + Sync {
 
 /// Where rates go.
 #[derive(Debug)]
-pub struct Rates<'a> {
+pub(super) struct Rates<'a> {
     /// Of positions.
     pub positions: &'a mut [f64],
     /// Of velocities.
@@ -59,11 +57,11 @@ pub struct Rates<'a> {
 
 /// A spring and damper of a joint, by velocity.
 #[derive(Clone, Copy)]
-struct Law {
-    column: usize,
+pub(super) struct Law {
+    pub column: usize,
     /// The joint's angle at the start.
-    from: f64,
-    law: JointLaw,
+    pub from: f64,
+    pub law: JointLaw,
 }
 
 struct Sized<const N: usize, const NQ: usize, const NV: usize> {
@@ -126,66 +124,19 @@ impl<const N: usize, const NQ: usize, const NV: usize> TreeModel for Sized<N, NQ
     }
 }
 
-/// The differential equations of a motion that has not begun, with torques held in its joints by link.
-///
-/// # Errors
-/// What about it is not to be had.
-pub fn tree_model(
-    simulation: &mut Simulation,
-    torques: &[f64],
-) -> Result<Box<dyn TreeModel>, &'static str> {
-    let system = simulation.system().clone();
-    check(&system)?;
-    let is_afloat = system.links().first().is_some_and(|l| floats(&l.joint.constraint));
-    let states = simulation.states();
-    let column_rates =
-        simulation.column_rates().map_err(|_| "a start whose inertia is singular")?.to_vec();
-    let base = if is_afloat { states[0] } else { [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0] };
-    let links: Vec<Link> =
-        (0..states.len()).map(|k| described(&system, &states, k, &base)).collect();
-    let (mut positions, mut velocities) = (Vec::new(), column_rates);
-    if is_afloat {
-        positions.extend(base);
-        let turn = Quaternion::from_array([base[3], base[4], base[5], base[6]]).conjugate();
-        for part in [0, 3] {
-            let in_world = Vector3::from_row_slice(&velocities[part..part + 3]);
-            velocities[part..part + 3].copy_from_slice(turn.rotate(in_world).as_slice());
-        }
-    }
-    positions.resize(velocities.len() + usize::from(is_afloat), 0.0);
-    let first = usize::from(is_afloat);
-    let column = |link: usize| link - first + 6 * first;
-    let mut held = vec![0.0; velocities.len()];
-    for (link, torque) in torques.iter().enumerate().skip(first) {
-        held[column(link)] = *torque;
-    }
-    let law = |(link, law): &(usize, JointLaw)| Law {
-        column: column(*link),
-        from: simulation.angle(*link),
-        law: *law,
-    };
-    let parts = Parts {
-        gravity: system.gravity(),
-        positions,
-        velocities,
-        torques: held,
-        laws: system.laws().iter().map(law).collect(),
-        links,
-    };
-    parts.sized(is_afloat).ok_or("no more than thirteen bodies")
-}
-
-struct Parts {
-    links: Vec<Link>,
-    gravity: f64,
-    positions: Vec<f64>,
-    velocities: Vec<f64>,
-    torques: Vec<f64>,
-    laws: Vec<Law>,
+/// What a tree's equations are made of.
+pub(super) struct Parts {
+    pub links: Vec<Link>,
+    pub gravity: f64,
+    pub positions: Vec<f64>,
+    pub velocities: Vec<f64>,
+    pub torques: Vec<f64>,
+    pub laws: Vec<Law>,
 }
 
 impl Parts {
-    fn sized(self, is_afloat: bool) -> Option<Box<dyn TreeModel>> {
+    /// The equations, of their size; none for a size that is not compiled.
+    pub fn sized(self, is_afloat: bool) -> Option<Box<dyn TreeModel>> {
         macro_rules! choose {
             ($(($n:literal, $nq:literal, $nv:literal, $afloat:literal)),*) => {
                 match (self.links.len(), is_afloat) {
@@ -236,68 +187,4 @@ impl Parts {
             laws: self.laws,
         }))
     }
-}
-
-fn floats(constraint: &JointConstraint) -> bool {
-    matches!(constraint, JointConstraint::Floating)
-}
-
-/// What a tree of `core` takes.
-fn check(system: &System) -> Result<(), &'static str> {
-    if system.ground().is_some() || !system.strikers().is_empty() {
-        return Err("nothing to touch");
-    }
-    if !system.closures().is_empty() {
-        return Err("no closed loop");
-    }
-    if system.links().len() > MOST_LINKS {
-        return Err("no more than thirteen bodies");
-    }
-    if system.laws().iter().any(|(_, law)| law.stops.is_some()) {
-        return Err("joints without stops");
-    }
-    for (k, link) in system.links().iter().enumerate() {
-        let one = matches!(
-            link.joint.constraint,
-            JointConstraint::Revolute { .. } | JointConstraint::Prismatic { .. }
-        );
-        if !(one || k == 0 && floats(&link.joint.constraint)) {
-            return Err("joints of one coordinate, and one floating body at most, the first");
-        }
-        let [a, b, c] = link.body.inertia;
-        if !(a + b >= c && b + c >= a && c + a >= b) {
-            return Err("inertias that a body can have");
-        }
-    }
-    Ok(())
-}
-
-/// A link as it is at the start, seen from the floating base, if there is one.
-fn described(system: &System, states: &[BodyState], k: usize, base: &BodyState) -> Link {
-    let link = &system.links()[k];
-    let (origin, base_turn) = placed(base);
-    let back = base_turn.conjugate();
-    let (centre, turn) = placed(&states[k]);
-    let (centre, turn) = (back.rotate(centre - origin), back.product(turn));
-    let inboard = link.inboard.map_or(0, |inboard| inboard + 1);
-    let joined = match link.joint.constraint {
-        JointConstraint::Revolute { axis } => {
-            let point = centre + turn.rotate(link.joint.outboard.into());
-            Link::revolute(inboard, turn.rotate(axis.into()).into(), point.into())
-        }
-        JointConstraint::Prismatic { axis } => {
-            let of_inboard = link.inboard.map_or(Quaternion::identity(), |i| placed(&states[i]).1);
-            let axis = back.product(of_inboard).rotate(axis.into());
-            Link::prismatic(inboard, axis.into())
-        }
-        // `check` lets no other through.
-        _ => Link::floating(inboard),
-    };
-    let q = turn.to_array();
-    let norm = q.iter().map(|q| q * q).sum::<f64>().sqrt();
-    joined.body(link.body.mass, link.body.inertia, centre.into()).oriented(q.map(|q| q / norm))
-}
-
-fn placed(&[x, y, z, ref q @ ..]: &BodyState) -> (Vector3<f64>, Quaternion<f64>) {
-    (Vector3::new(x, y, z), Quaternion::from_array(*q))
 }

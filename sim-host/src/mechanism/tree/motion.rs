@@ -1,12 +1,12 @@
 //! Methods on the differential equations of a tree, in joint coordinates: what most simulators do.
 
-use super::course::{Conserved, Course, Trouble, conserved, landmarks};
-use super::tree_model::{Rates, TreeModel};
-use crate::integrators::Progress;
-use crate::multibody::{BodyState, System};
+use super::super::moving::Moving;
+use super::description::tree_model;
+use super::equations::{Rates, TreeModel};
+use crate::integrators::{Method, Progress, StartError, StepError, StepFailure};
+use crate::multibody::{BodyState, Simulation, System};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use std::cell::Cell;
-use std::sync::Arc;
 use surefoot::dynamics::DynamicsFault;
 
 /// Adaptive steps within a step at most.
@@ -14,19 +14,19 @@ const MOST_ADAPTIVE_STEPS: usize = 100_000;
 
 /// A method on differential equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum TreeMethod {
-    /// Semi-implicit Euler: velocities, then positions along the new ones.
+enum TreeMethod {
+    /// Velocities, then positions along the new ones.
     SemiImplicitEuler,
-    /// Runge and Kutta's of fourth order.
     RungeKutta4,
-    /// Dormand and Prince's adaptive one of eighth order, within a tolerance.
+    /// Within a tolerance.
     DormandPrince8(f64),
 }
 
 /// A tree on its way.
-pub struct OfTree {
-    model: Arc<dyn TreeModel>,
-    system: Arc<System>,
+pub(crate) struct OnTree {
+    model: Box<dyn TreeModel>,
+    system: System,
+    /// Whether angular momentum is conserved.
     is_free: bool,
     method: TreeMethod,
     positions: Vec<f64>,
@@ -34,32 +34,44 @@ pub struct OfTree {
     progress: Progress,
 }
 
-impl OfTree {
-    /// At the model's start. `is_free` where angular momentum is conserved.
+impl OnTree {
+    /// From a motion that has not begun, with torques held in its joints by link.
+    ///
+    /// # Errors
+    /// [`StartError::NotFor`] where the method is not one on differential equations, or does not take the bodies.
     pub fn new(
-        model: Arc<dyn TreeModel>,
-        system: Arc<System>,
-        is_free: bool,
-        method: TreeMethod,
-        h: f64,
-    ) -> Self {
+        method: Method,
+        tolerance: f64,
+        mut simulation: Simulation,
+        torques: &[f64],
+    ) -> Result<Self, StartError> {
+        let not_for = |takes| StartError::NotFor { method, takes };
+        let on_tree = match method {
+            Method::SemiImplicitEuler => TreeMethod::SemiImplicitEuler,
+            Method::RungeKutta4 => TreeMethod::RungeKutta4,
+            Method::DormandPrince8 => TreeMethod::DormandPrince8(tolerance),
+            _ => return Err(not_for("the mechanisms of chapter 2")),
+        };
+        let model = tree_model(&mut simulation, torques).map_err(not_for)?;
+        let is_free = !simulation.conserved()?.1.is_empty();
         let (positions, velocities) = model.start();
-        let progress = Progress::new(h);
-        Self { model, system, is_free, method, positions, velocities, progress }
+        let progress = Progress::new(simulation.progress().h);
+        let system = simulation.system().clone();
+        Ok(Self { model, system, is_free, method: on_tree, positions, velocities, progress })
     }
 
-    fn fault(&self, fault: DynamicsFault) -> Trouble {
-        Trouble::Dynamics { time_s: self.progress.time_s, fault }
+    fn fault(&self, fault: DynamicsFault) -> StepError {
+        self.progress.error(fault)
     }
 
-    fn rates(&self, x: &[f64], v: &[f64]) -> Result<[Vec<f64>; 2], Trouble> {
+    fn rates(&self, x: &[f64], v: &[f64]) -> Result<[Vec<f64>; 2], StepError> {
         let (mut positions, mut velocities) = (vec![0.0; x.len()], vec![0.0; v.len()]);
         let into = Rates { positions: &mut positions, velocities: &mut velocities };
         self.model.rates(x, v, into).map_err(|fault| self.fault(fault))?;
         Ok([positions, velocities])
     }
 
-    fn euler(&mut self) -> Result<(), Trouble> {
+    fn euler(&mut self) -> Result<(), StepError> {
         let h = self.progress.h;
         let [_, a] = self.rates(&self.positions, &self.velocities)?;
         let v = moved(&self.velocities, &a, h);
@@ -70,7 +82,7 @@ impl OfTree {
         Ok(())
     }
 
-    fn runge_kutta(&mut self) -> Result<(), Trouble> {
+    fn runge_kutta(&mut self) -> Result<(), StepError> {
         let h = self.progress.h;
         let (x, v) = (&self.positions, &self.velocities);
         let k1 = self.rates(x, v)?;
@@ -87,7 +99,7 @@ impl OfTree {
         Ok(())
     }
 
-    fn dormand_prince(&mut self, tolerance: f64) -> Result<(), Trouble> {
+    fn dormand_prince(&mut self, tolerance: f64) -> Result<(), StepError> {
         let split = self.positions.len();
         let failed: Cell<Option<DynamicsFault>> = Cell::new(None);
         let model = &self.model;
@@ -105,11 +117,8 @@ impl OfTree {
             .atol(tolerance)
             .max_steps(MOST_ADAPTIVE_STEPS);
         let solution = IVP::ode_from_fn(rates, 0.0, self.progress.h, start).method(method).solve();
-        let time_s = self.progress.time_s;
-        let lost = || match failed.get() {
-            Some(fault) => Trouble::Dynamics { time_s, fault },
-            None => Trouble::Adaptive { time_s },
-        };
+        let progress = &self.progress;
+        let lost = || progress.error(failed.get().map_or(StepFailure::Adaptive, Into::into));
         let solution = solution.map_err(|_| lost())?;
         let Some((_, end)) = solution.last().ok().filter(|(_, y)| y.iter().all(|y| y.is_finite()))
         else {
@@ -121,7 +130,7 @@ impl OfTree {
         Ok(())
     }
 
-    fn bodies(&self) -> Result<(Vec<BodyState>, Vec<BodyState>), Trouble> {
+    fn bodies(&self) -> Result<(Vec<BodyState>, Vec<BodyState>), StepError> {
         self.model.bodies(&self.positions, &self.velocities).map_err(|fault| self.fault(fault))
     }
 }
@@ -130,8 +139,8 @@ fn moved(from: &[f64], along: &[f64], by: f64) -> Vec<f64> {
     from.iter().zip(along).map(|(x, d)| x + by * d).collect()
 }
 
-impl Course for OfTree {
-    fn step(&mut self) -> Result<(), Trouble> {
+impl Moving for OnTree {
+    fn step(&mut self) -> Result<(), StepError> {
         match self.method {
             TreeMethod::SemiImplicitEuler => self.euler()?,
             TreeMethod::RungeKutta4 => self.runge_kutta()?,
@@ -146,16 +155,29 @@ impl Course for OfTree {
         Ok(())
     }
 
-    fn place(&mut self) -> Result<Vec<f64>, Trouble> {
-        Ok(landmarks(&self.system, &self.bodies()?.0))
+    fn state(&mut self) -> Result<(Vec<f64>, Vec<f64>), StepError> {
+        let (states, rates) = self.bodies()?;
+        Ok((states.concat(), rates.concat()))
     }
 
-    fn conserved(&mut self) -> Result<Conserved, Trouble> {
+    fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError> {
         let (states, rates) = self.bodies()?;
-        Ok(conserved(&self.system, &states, &rates, self.is_free))
+        let system = &self.system;
+        let momentum =
+            if self.is_free { system.momentum(&states, &rates).1.to_vec() } else { Vec::new() };
+        Ok((system.energy(&states, &rates), momentum, system.largest_constraint(&states)))
     }
 
     fn progress(&self) -> &Progress {
         &self.progress
+    }
+
+    /// Nothing is foretold of these methods on trees.
+    fn forecast_s(&mut self) -> Option<f64> {
+        None
+    }
+
+    fn unknowns(&self) -> usize {
+        self.velocities.len()
     }
 }
