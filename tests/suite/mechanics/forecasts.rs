@@ -9,7 +9,7 @@ use surefoot_sim::stability::{
 };
 
 /// Methods that carry momentum across constraints from step to step. It builds up for longer than a probe lasts,
-/// and their forecasts on pendulums are too long by up to 65 %: what falls short of the rule.
+/// and their forecasts on pendulums are too long by up to 70 %: what falls short of the rule.
 const BUILDS_UP: [Method; 2] = [Method::EnergyMomentum, Method::ImplicitMidpoint];
 /// The map of one of them.
 const MAP_THAT_BUILDS_UP: &str = "step-speed-pendulum-energy-momentum";
