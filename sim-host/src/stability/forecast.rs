@@ -81,6 +81,8 @@ pub struct Probe<'a> {
     pub has_modified_energy: bool,
     /// `h` beyond which disturbances grow, s.
     pub unstable_s: f64,
+    /// Of the step at which probes begin to fail: what is foretold.
+    pub share: f64,
     /// Steps in question, s.
     pub range_s: [f64; 2],
 }
@@ -95,15 +97,19 @@ const MOST_OF_A_RUN: f64 = 0.1;
 /// Steps from a state that all states are worth; with more, fewer states are looked at.
 const STEPS_A_STATE: usize = 12;
 /// Of the step at which probes begin to fail. A run at that step is on a motion of its own, with other
-/// extremes, and looks at far more states than the forecast does: what it meets is a little faster. The one
-/// margin of all forecasts of this module and its maps.
+/// extremes, and looks at far more states than the forecast does: what it meets is a little faster.
 pub(super) const SHARE: f64 = 5.0 / 6.0;
+/// Of methods that carry momentum across constraints along: it builds up for longer than any probe lasts. The
+/// largest that leaves no forecast of the catalogue on the unsafe side; random problems are the check.
+const SHARE_OF_WHAT_BUILDS_UP: f64 = 0.53;
 
-/// How many steps a method is probed with at most.
-pub(super) fn most_steps(method: Method, has_constraints: bool) -> usize {
+/// How many steps a method is probed with at most, and the share of the step at which these begin to fail.
+pub(super) fn steps_and_share(method: Method, has_constraints: bool) -> (usize, f64) {
     match method {
-        Method::EnergyMomentum | Method::ImplicitMidpoint if has_constraints => MANY_STEPS,
-        _ => FEW_STEPS,
+        Method::EnergyMomentum | Method::ImplicitMidpoint if has_constraints => {
+            (MANY_STEPS, SHARE_OF_WHAT_BUILDS_UP)
+        }
+        _ => (FEW_STEPS, SHARE),
     }
 }
 
@@ -126,7 +132,7 @@ impl Probe<'_> {
         }
         let (mut works, mut h) = (None, shortest);
         // The share is to be within the range.
-        while h * SHARE <= longest {
+        while h * self.share <= longest {
             if let Some(kind) = self.fails(h, bounds) {
                 let Some(works) = works else { return Forecast { step_s: None, kind: Some(kind) } };
                 return self.between(works, (h, kind), bounds);
@@ -145,7 +151,7 @@ impl Probe<'_> {
                 Some(kind) => fails = (h, kind),
             }
         }
-        Forecast { step_s: Some(SHARE * works), kind: Some(fails.1) }
+        Forecast { step_s: Some(self.share * works), kind: Some(fails.1) }
     }
 
     /// How a run in steps of `h` should fail, if it should.

@@ -2,7 +2,7 @@
 
 use super::course::Course;
 use super::forecast::{
-    Change, Forecast, Probe, has_modified_energy, most_steps, oscillation_limit,
+    Change, Forecast, Probe, has_modified_energy, oscillation_limit, steps_and_share,
 };
 use super::verdict::{Bounds, FailureKind};
 use crate::integrators::{Method, Motion, StartError};
@@ -90,10 +90,12 @@ where
             rates: if drifts(method) { rows.iter().map(rate).collect() } else { Vec::new() },
         })
     };
+    let (most_steps, share) = steps_and_share(method, C > 0);
     let probe = Probe {
         states: course.states.len(),
         spacing_s: course.spacing_s,
-        most_steps: most_steps(method, C > 0),
+        most_steps,
+        share,
         step: &step,
         has_modified_energy: has_modified_energy(method, C > 0),
         unstable_s: oscillation_limit(method) / course.oscillation,

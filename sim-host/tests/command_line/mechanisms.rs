@@ -53,10 +53,11 @@ fn models_of_mechanisms_are_told_and_chosen() {
         assert_eq!(document["model"]["bodies"], bodies, "{arguments:?}");
     }
     for (arguments, word) in [
-        (["chain", "--model", "planar"], "not parallel"),
-        (["chain", "--model", "lumped"], "planar or single-body"),
-        (["experiment-1", "--model", "planar"], "lumped"),
-        (["rigid-body", "--model", "full"], "one model only"),
+        (vec!["chain", "--model", "planar", "--integrator", "variational"], "not parallel"),
+        (vec!["chain", "--model", "planar"], "--integrator variational"),
+        (vec!["chain", "--model", "lumped"], "planar or single-body"),
+        (vec!["experiment-1", "--model", "planar"], "lumped"),
+        (vec!["rigid-body", "--model", "full"], "one model only"),
     ] {
         let (status, _, stderr) = said(&surefoot(&folder, &[&["run"], &arguments[..]].concat()));
         assert_eq!(status, Some(2), "{arguments:?}");

@@ -4,11 +4,13 @@ use std::num::NonZeroUsize;
 use surefoot_sim::mechanism::{MechanismModel, NotMerged, StartFailure, run_model, start_model};
 use surefoot_sim::multibody::{NotPlanar, NotSingle};
 use surefoot_sim::parsimony::MechanismRung;
-use surefoot_sim::scene::{AnyScene, MechanismScene, open, parse};
+use surefoot_sim::scene::{AnyScene, Integrator, MechanismScene, open, parse};
 
+/// Under the method that has several models, whatever is recommended for the scene.
 fn scene(name: &str, duration_s: f64) -> MechanismScene {
     let AnyScene::Mechanism(mut scene) = open(name).expect("built in") else { unreachable!() };
     scene.duration_s = duration_s;
+    scene.integrator = Integrator::default();
     scene
 }
 
