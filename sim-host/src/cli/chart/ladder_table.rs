@@ -142,19 +142,20 @@ impl LadderTable {
         out
     }
 
-    /// What it comes to.
+    /// What the chosen model saves.
     pub fn headline(&self) -> String {
         let count = |rung: &String| {
             self.lines.iter().find(|line| line.rung == *rung).and_then(|line| line.instructions)
         };
         let [large, small] = &self.ends;
-        let saves = count(large).zip(count(small)).map(|(many, few)| {
-            format!(
-                ", with {few} instructions a step ({small}) in place of {many} ({large}), {:.2} times as many",
+        match count(large).zip(count(small)) {
+            Some((many, few)) => format!(
+                "{}: {few} instructions a step ({small}) in place of {many} ({large}): {:.2} times less.",
+                self.scene,
                 many as f64 / few as f64
-            )
-        });
-        format!("{} runs on the {}{}.", self.scene, self.chosen, saves.unwrap_or_default())
+            ),
+            None => format!("{} runs on the {}.", self.scene, self.chosen),
+        }
     }
 
     /// Bars, as SVG.
@@ -168,7 +169,8 @@ impl LadderTable {
     /// The drawing in a page, with links to the files.
     pub fn figure(&self, drawing: &str, files: &[PathBuf]) -> Figure {
         let note = format!(
-            "{} Deviations are of {}, at most, from the largest model of the same motion. {}",
+            "`run` takes the {}. {} Deviations are of {}, at most, from the largest model of the same motion. {}",
+            self.chosen,
             self.about,
             self.who,
             self.savings.join(" ")
