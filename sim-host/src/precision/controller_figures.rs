@@ -6,6 +6,9 @@ use super::figures::PrecisionFigure;
 use crate::chart::{ChartError, LogLogChart, MarkedCurve};
 use crate::closed_loop::{Approximation, Scalar};
 
+/// Torque errors that no one feels: a thousandth of the largest torque.
+const GOOD: f64 = 1e-3;
+
 const SCALARS: [(Scalar, &str); 2] = [(Scalar::F64, "f64"), (Scalar::F32, "f32")];
 
 /// All charts.
@@ -22,43 +25,43 @@ pub fn controller_figures(
         let points = precision.tracking.iter().filter_map(|row| Some((row.rate_hz, of(row)?)));
         curve(name.to_owned(), k, points)
     };
-    let figure = |name, title: &str, x: &str, y: &str, curves, sentence| {
+    let figure = |name, title: &str, [x, y]: [&str; 2], curves, (says, note)| {
         let chart = LogLogChart {
             title: format!("controller: {title}"),
             x_axis: x.to_owned(),
             y_axis: y.to_owned(),
             curves,
         };
-        Ok(PrecisionFigure { name, svg: chart.svg()?, says: sentence, note: String::new() })
+        Ok(PrecisionFigure { name, svg: chart.svg()?, says, note })
     };
     let error = "largest error of a torque, relative";
     let mut all = vec![
         figure(
             "factor",
             "torque error against the feet's mass",
-            "mass of a foot over the central body's",
-            error,
+            ["mass of a foot over the central body's", error],
             by_factor,
-            factor_sentence(precision),
+            (factor_glance(precision), factor_sentence(precision)),
         )?,
         figure(
             "tick-time",
             "torque error against a tick's time",
-            "computing time of a tick (s)",
-            error,
+            ["computing time of a tick (s)", error],
             time,
-            "The same in time, which this machine and its other users decide.".to_owned(),
+            (
+                "The same in time.".to_owned(),
+                "This machine and its other users decide it.".to_owned(),
+            ),
         )?,
         figure(
             "rate",
             "motion against control rate",
-            "rate (Hz)",
-            "root mean square distance (m, rad)",
+            ["rate (Hz)", "root mean square distance (m, rad)"],
             vec![
                 tracking("position (m)", 0, |row| row.position_m),
                 tracking("orientation (rad)", 1, |row| row.orientation_rad),
             ],
-            rate_sentence(precision),
+            (rate_glance(precision), rate_sentence(precision)),
         )?,
     ];
     if precision.uncounted.is_none() {
@@ -66,10 +69,9 @@ pub fn controller_figures(
         let counted = figure(
             "tick",
             title,
-            "instructions of a tick",
-            error,
+            ["instructions of a tick", error],
             instructions,
-            tick_sentence(precision),
+            (tick_glance(precision), tick_sentence(precision)),
         )?;
         all.insert(1, counted);
     }
@@ -147,6 +149,48 @@ fn tick_sentence(precision: &ControllerPrecision) -> String {
 
 fn curve(name: String, style: usize, points: impl Iterator<Item = (f64, f64)>) -> MarkedCurve {
     MarkedCurve { name, style, stands_out: true, points: points.collect() }
+}
+
+/// How far feet that are held exactly are off, and the best big base.
+fn factor_glance(precision: &ControllerPrecision) -> String {
+    let single = || precision.torques.iter().filter(|row| row.form.scalar == Scalar::F32);
+    let exact = single().find(|row| is_plain(row)).and_then(|row| row.largest);
+    let bases = single().filter(|row| row.form.factor.is_some());
+    let best = bases.filter_map(|row| row.largest).reduce(f64::min);
+    match exact.zip(best) {
+        Some((exact, best)) => {
+            format!("In f32 the exact foot is {exact:.1e} off, the best big base {best:.1e}.")
+        }
+        None => "In f32 some form gives no torques.".to_owned(),
+    }
+}
+
+/// The cheapest form that is good enough at every tick.
+fn tick_glance(precision: &ControllerPrecision) -> String {
+    let good = precision.torques.iter().filter(|row| row.largest.is_some_and(|off| off <= GOOD));
+    let counted = good.filter_map(|row| Some((row.instructions?, row.form)));
+    match counted.min_by_key(|(count, _)| *count) {
+        Some((count, form)) => {
+            format!(
+                "The cheapest form within {GOOD:.0e} at every tick: {form}, {count} instructions."
+            )
+        }
+        None => format!("No form is within {GOOD:.0e} at every tick."),
+    }
+}
+
+/// Over which rates the robot stands, and how far off it is at the highest.
+fn rate_glance(precision: &ControllerPrecision) -> String {
+    let standing =
+        || precision.tracking.iter().filter_map(|row| Some((row.rate_hz, row.position_m?)));
+    let lowest = standing().min_by(|a, b| a.0.total_cmp(&b.0));
+    let highest = standing().max_by(|a, b| a.0.total_cmp(&b.0));
+    match lowest.zip(highest) {
+        Some((low, high)) => {
+            format!("{:.1e} m off at {:.0} Hz, {:.1e} m at {:.0} Hz.", high.1, high.0, low.1, low.0)
+        }
+        None => "The robot stands at no rate.".to_owned(),
+    }
 }
 
 fn factor_sentence(precision: &ControllerPrecision) -> String {

@@ -5,6 +5,7 @@
 mod builtin;
 mod check;
 mod check_hardware;
+mod check_mechanism;
 mod disturbance;
 mod hardware;
 mod load;

@@ -3,7 +3,7 @@
 use super::maps::{self, Mapped};
 use super::{Made, Options, Part, map_picture, steps};
 use crate::report::{Chapter, Figure, ForecastCounts, stability_chapter};
-use crate::stability::maps::tell;
+use crate::stability::maps::{glance, tell};
 use crate::stability::{Scan, Tally};
 use serde_json::json;
 
@@ -57,7 +57,8 @@ fn chapter(scan: Option<&Scan>, mapped: Option<&Mapped>) -> Result<Chapter, Stri
         let drawing =
             map_picture::picture(map, columns).svg().map_err(|error| error.to_string())?;
         let files = ["svg", "csv"].map(|ending| format!("map-{}.{ending}", map.name));
-        Ok(Figure::new(&drawing, tell(map, columns), map.note).with_files(files))
+        let note = format!("{} {}", tell(map, columns), map.note);
+        Ok(Figure::new(&drawing, glance(map, columns), note).with_files(files))
     };
     let figures: Result<Vec<Figure>, String> =
         mapped.into_iter().flat_map(Mapped::iter).map(figure).collect();

@@ -29,7 +29,7 @@ pub use loops::loop_maps;
 pub use methods::method_maps;
 pub use outcome::{Failure, Outcome};
 pub use survey::survey;
-pub use tell::{significant, tally, tell};
+pub use tell::{glance, significant, tally, tell};
 pub use yielding::floor_maps;
 
 use super::TreeProblemError;

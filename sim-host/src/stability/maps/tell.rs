@@ -9,6 +9,12 @@ pub fn tally(map: &Map, columns: &[Column]) -> Tally {
     columns.iter().map(|column| map.agreement(column)).collect()
 }
 
+/// What a map shows at a glance: where its edge is, or that it has none.
+pub fn glance(map: &Map, columns: &[Column]) -> String {
+    let edge = edge(map, columns);
+    if edge.is_empty() { "No cell fails.".to_owned() } else { edge.trim_start().to_owned() }
+}
+
 /// What a map says.
 pub fn tell(map: &Map, columns: &[Column]) -> String {
     let cells = || columns.iter().flat_map(|column| &column.cells);
