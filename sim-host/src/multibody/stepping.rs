@@ -1,12 +1,25 @@
-//! One step of any set of equations: Newton's method with a line search, and shorter steps where it fails. The
-//! simulator in joint coordinates has the same in itself, with loops and gimbals; limits are one and the same.
+//! One step of any set of equations: Newton's method with a line search, and shorter steps where it fails.
 
-use super::recursive::newton::{
-    FAST, FREE_SPLITS, MOST_HALVINGS, MOST_ITERATIONS, MOST_SPLITS, ROUND_OFF, STEPS_PER_SPLIT,
-    TOLERANCE,
-};
 use crate::integrators::{Progress, StepError, StepFailure};
 use crate::newton::NewtonFailure;
+
+/// Newton steps at most.
+const MOST_ITERATIONS: u32 = 40;
+/// Halvings of a Newton step at most.
+const MOST_HALVINGS: u32 = 12;
+/// Residuals, relative to their terms, that count as a root once they fall no further.
+const TOLERANCE: f64 = 1e-10;
+/// Residuals that count as a root at once.
+const ROUND_OFF: f64 = 2e-15;
+/// While residuals fall by this in an iteration, the elimination is used again.
+const FAST: f64 = 1e-2;
+/// Cosine of half the angle by which a body may turn in a step: beyond a quarter turn (2.51) folds.
+pub(super) const LEAST_TURN: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Steps that may be made in shorter ones: so many, and one of so many.
+const FREE_SPLITS: u64 = 10;
+const STEPS_PER_SPLIT: u64 = 100;
+/// A step that fails is made in 2, 4, … up to 2 to this power.
+const MOST_SPLITS: u32 = 6;
 
 /// The equations of a step, with a trial of its end.
 pub(super) trait StepEquations {
@@ -33,6 +46,14 @@ pub(super) trait StepEquations {
     fn is_folded(&self) -> bool;
     /// Goes on to the trial's end.
     fn accept(&mut self, h: f64);
+    /// A joint that cannot go on from there.
+    fn locked(&self) -> Option<usize> {
+        None
+    }
+    /// Whether steps that fail are made in shorter ones.
+    fn may_split(&self) -> bool {
+        true
+    }
 }
 
 /// One step. Where its equations have no solution nearby it is made in 2, 4, … 64 shorter ones.
@@ -44,7 +65,7 @@ pub(super) fn make_step(equations: &mut impl StepEquations) -> Result<(), StepEr
     let h = equations.progress().h;
     let mut result = advance(equations, h);
     let mut splits = 0;
-    while result.is_err() && splits < MOST_SPLITS {
+    while result.is_err() && equations.may_split() && splits < MOST_SPLITS {
         // What was evaluated in vain has been evaluated.
         let evaluations = equations.progress().evaluations;
         equations.go_back();
@@ -57,6 +78,28 @@ pub(super) fn make_step(equations: &mut impl StepEquations) -> Result<(), StepEr
             break;
         }
     }
+    conclude(equations, result)
+}
+
+/// One step in stages, each this share of it, which are not made in shorter ones.
+///
+/// # Errors
+/// A [`StepError`]; the motion is then where it was.
+pub(super) fn make_stages(
+    equations: &mut impl StepEquations,
+    stages: &[f64],
+) -> Result<(), StepError> {
+    equations.save();
+    let h = equations.progress().h;
+    let made = stages.iter().try_for_each(|share| advance(equations, share * h));
+    conclude(equations, made)
+}
+
+/// Counts the step, or goes back to where it began.
+fn conclude(
+    equations: &mut impl StepEquations,
+    result: Result<(), StepError>,
+) -> Result<(), StepError> {
     match result {
         Ok(()) => equations.progress_mut().advance(),
         Err(_) => equations.go_back(),
@@ -134,6 +177,9 @@ fn advance(equations: &mut impl StepEquations, h: f64) -> Result<(), StepError> 
         return Err(equations.progress().error(StepFailure::WrongBranch));
     }
     equations.accept(h);
+    if let Some(joint) = equations.locked() {
+        return Err(equations.progress().error(StepFailure::GimbalLock { joint }));
+    }
     equations.progress_mut().iterated(iterations, error);
     Ok(())
 }

@@ -1,7 +1,6 @@
 //! A planar motion's steps.
 
-use super::super::recursive::newton::LEAST_TURN;
-use super::super::stepping::StepEquations;
+use super::super::stepping::{LEAST_TURN, StepEquations};
 use super::algebra::Turn;
 use super::node::Kind;
 use super::simulation::PlanarSimulation;

@@ -8,7 +8,7 @@ use super::trial::Trial;
 
 impl Simulation {
     /// Goes on to the trial's end.
-    pub(super) fn accept(&mut self, h: f64) {
+    pub(super) fn go_on(&mut self, h: f64) {
         let ratio = h / self.at.last_h;
         self.note_impulses();
         for (moved, k) in self.at.watched.iter_mut().zip(&self.watched) {

@@ -2,7 +2,7 @@
 
 use super::super::body::BodyState;
 use super::coordinates::Increment;
-use super::newton::singular;
+use super::equations::singular;
 use super::node::Place;
 use super::simulation::Simulation;
 use super::stiffness::Pair;

@@ -2,6 +2,7 @@
 
 use super::simulation::Simulation;
 use crate::integrators::StepError;
+use crate::multibody::stepping::make_stages;
 
 impl Simulation {
     /// One step in stages, each this share of it. A step is symmetric in time as long as nothing touches
@@ -13,9 +14,6 @@ impl Simulation {
     /// # Cost
     /// A step for each stage.
     pub fn step_in_stages(&mut self, stages: &[f64]) -> Result<(), StepError> {
-        self.saved.copy_from(&self.at);
-        let h = self.at.progress.h;
-        let made = stages.iter().try_for_each(|share| self.advance(share * h));
-        self.conclude(made)
+        make_stages(self, stages)
     }
 }

@@ -11,8 +11,7 @@
 //! ```
 //! Without forces (1) says what `d` is, and (2) is left, in body axes, where `I` is diagonal.
 
-use super::super::recursive::newton::LEAST_TURN;
-use super::super::stepping::StepEquations;
+use super::super::stepping::{LEAST_TURN, StepEquations};
 use super::checkpoint::Move;
 use super::simulation::SingleBody;
 use crate::contact::{ContactPoint, StepForce};
