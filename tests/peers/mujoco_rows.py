@@ -14,6 +14,9 @@ INTEGRATORS = {
     "RK4": mujoco.mjtIntegrator.mjINT_RK4,
 }
 
+# A motion that diverges is seen in its energy; without this a log of it is left where the command was given.
+mujoco.set_mju_user_warning(lambda message: None)
+
 
 def start(folder, name, integrator, h):
     model = mujoco.MjModel.from_xml_path(str(folder / f"{name}.xml"))
