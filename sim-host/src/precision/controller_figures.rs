@@ -171,8 +171,10 @@ fn tick_glance(precision: &ControllerPrecision) -> String {
     let counted = good.filter_map(|row| Some((row.instructions?, row.form)));
     match counted.min_by_key(|(count, _)| *count) {
         Some((count, form)) => {
+            let scalar = SCALARS.iter().find(|(scalar, _)| *scalar == form.scalar);
+            let scalar = scalar.map_or("", |(_, name)| name);
             format!(
-                "The cheapest form within {GOOD:.0e} at every tick: {form}, {count} instructions."
+                "The cheapest form within {GOOD:.0e} at every tick: {form} in {scalar}, {count} instructions."
             )
         }
         None => format!("No form is within {GOOD:.0e} at every tick."),
