@@ -1,5 +1,6 @@
 //! Instructions that this program executes, by valgrind's tool callgrind, for what it is asked to do.
 
+use clap::ValueEnum;
 use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
@@ -14,6 +15,11 @@ pub enum CountFailure {
     /// It has not done what it was asked for.
     #[error("valgrind has not counted: {0}")]
     NoCount(String),
+}
+
+/// The name of a value on this program's command line.
+pub fn word(value: impl ValueEnum) -> String {
+    value.to_possible_value().map_or_else(String::new, |named| named.get_name().to_owned())
 }
 
 /// Instructions of a run of this program with these arguments, its start and end included.

@@ -3,8 +3,8 @@
 use super::play::{PlayFailure, Played, Rung};
 use super::saving::Saving;
 use super::step_count::count;
+use crate::callgrind::word;
 use crate::scene::{self, Scene};
-use clap::ValueEnum;
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::num::NonZeroUsize;
@@ -106,11 +106,6 @@ fn quickest(rung: Rung, scene: &Scene) -> Result<Played, PlayFailure> {
         best.in_steps = best.in_steps.min(rung.play(scene, NonZeroUsize::MIN)?.in_steps);
     }
     Ok(best)
-}
-
-/// The name of a rung on the command line.
-pub fn word(rung: impl ValueEnum) -> String {
-    rung.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
 }
 
 /// Largest distance and angle between two paths.

@@ -1,8 +1,9 @@
 //! All rungs of the ladder of bodies and joints, with what each costs and how far it is off.
 
-use super::ladder::{RUNS, apart, word};
+use super::ladder::{RUNS, apart};
 use super::play::{PlayFailure, Played, fly};
 use super::step_count::count;
+use crate::callgrind::word;
 use crate::mechanism::{ChosenModel, MechanismModel, Moving, Started, start_bodies, start_model};
 use crate::multibody::ConstrainedSimulation;
 use crate::scene::MechanismScene;

@@ -11,7 +11,7 @@ mod play;
 mod saving;
 mod step_count;
 
-pub use ladder::{Ladder, Row, climb, word};
+pub use ladder::{Ladder, Row, climb};
 pub use mechanism_ladder::{MechanismLadder, MechanismRow, MechanismRung, climb_mechanism};
 pub use play::{PlayFailure, Played, Rung};
 pub use saving::Saving;

@@ -1,5 +1,6 @@
 //! The controllers whose torques are compared: precision, feet, and what is left out.
 
+use crate::callgrind::word;
 use crate::closed_loop::{Approximation, Controller, Scalar, approximate_controller, controller};
 use crate::scene::{Scene, Workspace};
 use clap::{Args, ValueEnum};
@@ -48,10 +49,10 @@ impl ControllerForm {
 
     /// As on the command line.
     pub(super) fn arguments(&self) -> Vec<String> {
-        let mut all = vec!["--scalar".to_owned(), word(&self.scalar)];
+        let mut all = vec!["--scalar".to_owned(), word(self.scalar)];
         all.extend(self.factor.iter().flat_map(|f| ["--factor".to_owned(), f.to_string()]));
         let left_out = self.approximation.iter();
-        all.extend(left_out.flat_map(|a| ["--approximation".to_owned(), word(a)]));
+        all.extend(left_out.flat_map(|a| ["--approximation".to_owned(), word(*a)]));
         all
     }
 }
@@ -60,12 +61,8 @@ impl std::fmt::Display for ControllerForm {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match (self.factor, self.approximation) {
             (Some(factor), _) => write!(f, "big base {factor:.0e}"),
-            (None, Some(approximation)) => f.write_str(&word(&approximation)),
+            (None, Some(approximation)) => f.write_str(&word(approximation)),
             (None, None) => f.write_str("exact foot"),
         }
     }
-}
-
-fn word(value: &impl ValueEnum) -> String {
-    value.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
 }

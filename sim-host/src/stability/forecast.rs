@@ -38,7 +38,7 @@
 //! - `e`: change of energy in a step; `B`: its sum along the motion
 
 use super::verdict::{Bounds, FailureKind};
-use crate::integrators::{Method, YOSHIDA_4, YOSHIDA_6};
+use crate::integrators::{Method, YOSHIDA_4, YOSHIDA_6, longest_stage};
 use crate::mechanics::{Lagrangian, acceleration, jacobian, saddle};
 use crate::newton::solve_linear;
 use num_dual::Dual64;
@@ -238,14 +238,13 @@ pub fn has_modified_energy(method: Method, has_constraints: bool) -> bool {
 ///   of another, slower oscillation, so that the states met are not those of the accurate motion. Each
 ///   stage of a composition counts.
 pub fn oscillation_limit(method: Method) -> f64 {
-    let longest = |stages: &[f64]| stages.iter().fold(0.0_f64, |m, stage| m.max(stage.abs()));
     match method {
         Method::Variational
         | Method::ImplicitMidpoint
         | Method::EnergyMomentum
         | Method::LieGroup => PI,
-        Method::Yoshida4 => PI / longest(&YOSHIDA_4),
-        Method::Yoshida6 => PI / longest(&YOSHIDA_6),
+        Method::Yoshida4 => PI / longest_stage(&YOSHIDA_4),
+        Method::Yoshida6 => PI / longest_stage(&YOSHIDA_6),
         Method::DormandPrince8 => f64::INFINITY,
         Method::VariationalEndpoint
         | Method::Verlet

@@ -97,7 +97,7 @@ pub fn run(options: &Options) -> Result<()> {
 
 /// # Returns
 /// The version of the valgrind that this machine has, or is given.
-fn provide_valgrind() -> Result<String> {
+pub(crate) fn provide_valgrind() -> Result<String> {
     let version = Step::new("valgrind", ["--version"]);
     if !version.succeeds() {
         apt::install("valgrind").context(

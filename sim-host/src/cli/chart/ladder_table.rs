@@ -1,7 +1,8 @@
 //! A ladder of models as a table, as bars and as files, whatever it is a ladder of.
 
+use crate::callgrind::word;
 use crate::chart::{Bar, Bars};
-use crate::parsimony::{Ladder, MechanismLadder, MechanismRung, Rung, Saving, word};
+use crate::parsimony::{Ladder, MechanismLadder, MechanismRung, Rung, Saving};
 use crate::report::Figure;
 use serde::Serialize;
 use std::fmt::Write;
