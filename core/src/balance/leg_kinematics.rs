@@ -104,10 +104,18 @@ pub(super) fn walk_legs<T: Real, const LEGS: usize, const REVERSED: bool>(
         }
         // A joint whose axis points against its frame's is one along that axis whose angle counts
         // backwards.
-        let sense = |k: usize| if links[k].is_reversed { -T::one() } else { T::one() };
-        let along = |all: &[T; LEG]| core::array::from_fn(|k| all[k] * sense(k));
-        walk(leg, links, central, &along(angles), &along(rates));
-        leg.axes = core::array::from_fn(|k| leg.axes[k] * sense(k));
+        let (mut along_angles, mut along_rates) = (*angles, *rates);
+        for ((angle, rate), node) in along_angles.iter_mut().zip(&mut along_rates).zip(links) {
+            if node.is_reversed {
+                (*angle, *rate) = (-*angle, -*rate);
+            }
+        }
+        walk(leg, links, central, &along_angles, &along_rates);
+        for (axis, node) in leg.axes.iter_mut().zip(links) {
+            if node.is_reversed {
+                *axis = -*axis;
+            }
+        }
         leg.rates = *rates;
     }
 }
