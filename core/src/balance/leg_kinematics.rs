@@ -83,13 +83,14 @@ pub fn leg_kinematics<T: Real, const LEGS: usize>(
     state: &RobotState<T, LEGS>,
 ) -> [LegKinematics<T>; LEGS] {
     let mut legs = [LegKinematics::empty(); LEGS];
-    walk_legs(robot, central, state, &mut legs);
+    walk_legs::<T, LEGS, true>(robot, central, state, &mut legs);
     legs
 }
 
-/// The same into a place that is there already: a copy costs a tenth of a tick.
+/// The same into a place that is there already: a copy costs a tenth of a tick. Without `REVERSED` for
+/// robots that have no reversed joint.
 #[inline(always)]
-pub(super) fn walk_legs<T: Real, const LEGS: usize>(
+pub(super) fn walk_legs<T: Real, const LEGS: usize, const REVERSED: bool>(
     robot: &LeggedRobot<T, LEGS>,
     central: &CentralBody<T>,
     state: &RobotState<T, LEGS>,
@@ -97,7 +98,25 @@ pub(super) fn walk_legs<T: Real, const LEGS: usize>(
 ) {
     let joints = state.joint_angles.iter().zip(&state.joint_rates);
     for ((leg, links), (angles, rates)) in legs.iter_mut().zip(&robot.legs).zip(joints) {
-        walk(leg, links, central, angles, rates);
+        if !REVERSED {
+            walk(leg, links, central, angles, rates);
+            continue;
+        }
+        // A joint whose axis points against its frame's is one along that axis whose angle counts
+        // backwards.
+        let (mut along_angles, mut along_rates) = (*angles, *rates);
+        for ((angle, rate), node) in along_angles.iter_mut().zip(&mut along_rates).zip(links) {
+            if node.is_reversed {
+                (*angle, *rate) = (-*angle, -*rate);
+            }
+        }
+        walk(leg, links, central, &along_angles, &along_rates);
+        for (axis, node) in leg.axes.iter_mut().zip(links) {
+            if node.is_reversed {
+                *axis = -*axis;
+            }
+        }
+        leg.rates = *rates;
     }
 }
 

@@ -14,6 +14,10 @@ use nalgebra::{Matrix3, Vector3};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Node<T> {
     pub kind: JointKind,
+    /// Whether the joint's axis points against its frame's, so that the user's coordinate, rate and
+    /// torque are the negative of those in this frame. The public functions turn them round on their
+    /// way in and out; the recursions know nothing of it.
+    pub is_reversed: bool,
     /// Index of the inboard node; `None` for the inertial frame.
     pub inboard: Option<usize>,
     /// First coordinate and first velocity of the joint.
@@ -25,6 +29,10 @@ pub(crate) struct Node<T> {
     pub is_offset: bool,
     /// Inboard from this frame at home, where they are not parallel.
     pub home_rotation: Option<Matrix3<T>>,
+    /// The frame's axes at home in the describing frame, where they are not parallel.
+    pub home_axes: Option<Matrix3<T>>,
+    /// Of the joint's rotor, reflected to the joint: kg·m², or kg where it slides.
+    pub rotor_inertia: T,
     /// Of the outboard body.
     pub inertia: RigidInertia<T>,
     /// Whether the centre of mass is away from the joint.
@@ -72,12 +80,15 @@ impl<T: crate::Real> Node<T> {
 /// What an array of nodes holds before it is filled.
 pub(super) const EMPTY: Node<f64> = Node {
     kind: JointKind::Fixed,
+    is_reversed: false,
     inboard: None,
     position_start: 0,
     velocity_start: 0,
     offset: Vector3::new(0.0, 0.0, 0.0),
     is_offset: false,
     home_rotation: None,
+    home_axes: None,
+    rotor_inertia: 0.0,
     inertia: RigidInertia {
         mass: 0.0,
         first_moment: Vector3::new(0.0, 0.0, 0.0),

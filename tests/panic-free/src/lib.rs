@@ -15,22 +15,19 @@ use surefoot::balance::{
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
 
-static ROBOT: LeggedRobot<f32, 2> = LeggedRobot::new(&biped::TREE).to_f32(&biped::TREE_F32);
+static ROBOT: LeggedRobot<f32, 2> = LeggedRobot::new(&biped::TREE).to_f32();
 
 /// One tick in single precision of a controller of whose robot, gains, form, limits, state and
 /// reference the optimiser knows nothing but the types.
 #[inline(always)]
 pub fn opaque_tick() {
+    let sole = Sole { x: [-0.2, 0.05], y: [-0.05, 0.05], z: -0.06 };
     let controller = Controller {
         robot: black_box(&ROBOT),
         gains: black_box(Gains::experiments()),
         form: black_box(WorkspaceForm::BigBase { factor: 1e3 }),
         singularity: black_box(0.01),
-        foot_limits: black_box(Some(FootLimits {
-            least_normal_force: 0.0,
-            friction: Some(0.3),
-            sole: Some(Sole { x: [-0.2, 0.05], y: [-0.05, 0.05], z: -0.06 }),
-        })),
+        foot_limits: black_box(FootLimits::new(0.0, Some(0.3), Some(sole)).ok()),
     };
     let position = Vector3::new(0.0, 0.0, 1.035);
     let state = black_box(RobotState {
