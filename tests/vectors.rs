@@ -12,7 +12,7 @@ pub fn controller() -> Value {
     parse(include_str!("vectors/controller_vectors.json"))
 }
 
-fn parse(text: &str) -> Value {
+pub(crate) fn parse(text: &str) -> Value {
     serde_json::from_str(text).expect("the vectors are valid JSON")
 }
 
