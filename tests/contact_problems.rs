@@ -7,6 +7,7 @@ use rand_pcg::Pcg64;
 use serde_json::Value;
 use surefoot::Real;
 use surefoot::balance::{ContactFoot, ContactLimits, ContactPatch, ContactProgram, ContactWeights};
+use surefoot::qp::{ActiveRows, Fault, Settings, Solution, solve};
 use surefoot::spatial::{Twist, Wrench};
 
 /// Joints of a leg in these problems.
@@ -21,6 +22,10 @@ pub struct Foot<T> {
     pub position: Vector3<T>,
     /// Its twist per rate of each joint.
     pub joints: [Twist<T>; JOINTS],
+    /// Least and greatest x and y of the sole, from the reference point, m.
+    pub sole: [[T; 2]; 2],
+    /// Its height over that point, m.
+    pub height: T,
     /// `c`, sole axes.
     pub carried: Wrench<T>,
     /// What can be given.
@@ -63,6 +68,18 @@ impl<T: Real, const FEET: usize> Problem<T, FEET> {
             .expect("feet nearby")
     }
 
+    /// Solves it.
+    #[inline(never)]
+    pub fn solve<const K: usize>(
+        &self,
+        active: &mut ActiveRows<T, K>,
+        settings: &Settings<T>,
+    ) -> Result<Solution<T, [Wrench<T>; FEET]>, Fault> {
+        let contacts = self.contacts();
+        let program = ContactProgram::new(&contacts, &self.weights, &self.world, self.desired);
+        solve(&program.ok_or(Fault::NotFinite)?, active, settings)
+    }
+
     /// Wrenches in frame 1's axes turned into sole axes, one after the other.
     pub fn in_sole_axes(&self, wrenches: &[Wrench<T>; FEET]) -> Vec<f64> {
         let each = self.feet.iter().zip(wrenches);
@@ -85,6 +102,34 @@ impl<T: Real, const FEET: usize> Problem<T, FEET> {
     }
 }
 
+impl<const FEET: usize> Problem<f32, FEET> {
+    /// The same numbers in double precision: what an answer in single precision is compared with.
+    pub fn to_f64(&self) -> Problem<f64, FEET> {
+        let vector = |v: Vector3<f32>| v.map(f64::from);
+        let wrench = |w: Wrench<f32>| Wrench { force: vector(w.force), torque: vector(w.torque) };
+        Problem {
+            feet: self.feet.map(|foot| Foot {
+                rotation: foot.rotation.map(f64::from),
+                position: vector(foot.position),
+                joints: foot
+                    .joints
+                    .map(|j| Twist { linear: vector(j.linear), angular: vector(j.angular) }),
+                sole: foot.sole.map(|range| range.map(f64::from)),
+                height: foot.height.into(),
+                carried: wrench(foot.carried),
+                limits: foot.limits.to_f64(),
+            }),
+            world: self.world.map(f64::from),
+            desired: wrench(self.desired),
+            weights: ContactWeights {
+                task: self.weights.task.map(f64::from),
+                regularization: f64::from(self.weights.regularization),
+                norm_length: f64::from(self.weights.norm_length),
+            },
+        }
+    }
+}
+
 impl<const FEET: usize> Problem<f64, FEET> {
     /// Every number rounded to the nearest.
     pub fn to_f32(&self) -> Problem<f32, FEET> {
@@ -97,6 +142,8 @@ impl<const FEET: usize> Problem<f64, FEET> {
                 joints: foot
                     .joints
                     .map(|j| Twist { linear: vector(j.linear), angular: vector(j.angular) }),
+                sole: foot.sole.map(|range| range.map(|x| x as f32)),
+                height: foot.height as f32,
                 carried: wrench(foot.carried),
                 limits: foot.limits.to_f32(),
             }),
@@ -138,20 +185,20 @@ fn problem<const FEET: usize>(case: &Value) -> Problem<f64, FEET> {
         let (limits, position) = (&foot["limits"], vector(&foot["p"]));
         let axes = matrix::<JOINTS, 3>(&foot["axes"]);
         let origins = matrix::<JOINTS, 3>(&foot["origins"]);
+        let sole = [array(&limits["sole_x"]), array(&limits["sole_y"])];
+        let height = limits["sole_z"].as_f64().unwrap();
         Foot {
             rotation: rotation(&foot["R"]),
             position,
             joints: std::array::from_fn(|k| revolute(axes[k].into(), origins[k].into(), position)),
+            sole,
+            height,
             carried: Wrench::from_array(array(&foot["c"])),
             limits: ContactLimits {
                 least_force: limits["force_min"].as_f64().unwrap(),
                 greatest_force: limits["force_max"].as_f64().unwrap(),
                 friction: limits["friction"].as_f64().unwrap(),
-                patch: ContactPatch::sole(
-                    array(&limits["sole_x"]),
-                    array(&limits["sole_y"]),
-                    limits["sole_z"].as_f64().unwrap(),
-                ),
+                patch: ContactPatch::sole(sole[0], sole[1], height),
                 torques: array(&limits["torque"]),
             },
         }
@@ -176,6 +223,17 @@ fn random_vector(random: &mut Pcg64, size: f64) -> Vector3<f64> {
 fn random_rotation(random: &mut Pcg64, angle: f64) -> Matrix3<f64> {
     let axis = nalgebra::Unit::new_normalize(random_vector(random, 1.0));
     nalgebra::Rotation3::from_axis_angle(&axis, random.random_range(-angle..angle)).into_inner()
+}
+
+/// The same some time later: another wrench is desired, by at most these forces (N) and moments (N·m).
+pub fn later<const FEET: usize>(
+    problem: &Problem<f64, FEET>,
+    random: &mut Pcg64,
+    [force, moment]: [f64; 2],
+) -> Problem<f64, FEET> {
+    let change =
+        Wrench { force: random_vector(random, force), torque: random_vector(random, moment) };
+    Problem { desired: problem.desired + change, ..*problem }
 }
 
 /// A harsh random program: a robot of about 75 kg asked for anything, on soles of any size, with legs
@@ -248,10 +306,13 @@ fn leg(
     let half = [random.random_range(0.02..0.14), random.random_range(0.015..0.07)];
     let middle = [random.random_range(-0.04..0.04), random.random_range(-0.01..0.01)];
     let range = |k: usize| [middle[k] - half[k], middle[k] + half[k]];
+    let (sole, height) = ([range(0), range(1)], -0.0347);
     Foot {
         rotation: r,
         position,
         joints: std::array::from_fn(|k| revolute(axes[k], origins[k], position)),
+        sole,
+        height,
         carried: Wrench {
             force: Vector3::new(0.0, 0.0, 72.0) + random_vector(random, 40.0),
             torque: random_vector(random, 6.0),
@@ -260,7 +321,7 @@ fn leg(
             least_force,
             greatest_force: least_force + random.random_range(100.0..1200.0) * 2.0 / feet.max(2.0),
             friction,
-            patch: ContactPatch::sole(range(0), range(1), -0.0347),
+            patch: ContactPatch::sole(sole[0], sole[1], height),
             torques: [100.0, 150.0, 150.0, 200.0, 150.0, 100.0].map(|x| x * strength),
         },
     }

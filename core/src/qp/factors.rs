@@ -13,9 +13,9 @@ use crate::Real;
 
 /// `L`, `D` and `y` of at most `K` rows, and what is known of each row.
 pub(super) struct Factors<T, N, const K: usize> {
-    pub rows: [u8; K],
-    pub normals: [N; K],
-    pub multipliers: [T; K],
+    rows: [u8; K],
+    normals: [N; K],
+    multipliers: [T; K],
     lower: [[T; K]; K],
     pivots: [T; K],
     inverse_pivots: [T; K],
@@ -167,16 +167,29 @@ impl<T: Real, N: Copy, const K: usize> Factors<T, N, K> {
         }
     }
 
-    /// The row whose multiplier is the first to be zero on the straight line to `optimum`, and the
-    /// share of that line; `None` where none turns negative.
+    /// Whether no row is active.
     #[inline(always)]
-    pub fn first_to_leave(&self, optimum: &[T; K]) -> Option<(usize, T)> {
-        let mut first: Option<(usize, T)> = None;
-        for (at, (from, to)) in self.multipliers.iter().zip(optimum).enumerate().take(self.len()) {
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Each row's normal and multiplier.
+    #[inline(always)]
+    pub fn iter(&self) -> impl Iterator<Item = (&N, T)> {
+        self.normals.iter().zip(self.multipliers.iter().copied()).take(self.count)
+    }
+
+    /// The row whose multiplier is the first to be zero on the straight line to `optimum`: its place,
+    /// its number, and the share of that line; `None` where none turns negative.
+    #[inline(always)]
+    pub fn first_to_leave(&self, optimum: &[T; K]) -> Option<(usize, u8, T)> {
+        let mut first: Option<(usize, u8, T)> = None;
+        let lines = self.rows.iter().zip(self.multipliers.iter().zip(optimum));
+        for (at, (row, (from, to))) in lines.enumerate().take(self.count) {
             if *to < T::zero() {
                 let share = *from / (*from - *to);
-                if first.is_none_or(|(_, least)| share < least) {
-                    first = Some((at, share));
+                if first.is_none_or(|(_, _, least)| share < least) {
+                    first = Some((at, *row, share));
                 }
             }
         }

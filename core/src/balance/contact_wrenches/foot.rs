@@ -73,6 +73,23 @@ pub struct ContactLimits<T, const JOINTS: usize> {
     pub torques: [T; JOINTS],
 }
 
+impl<const JOINTS: usize> ContactLimits<f32, JOINTS> {
+    /// The same numbers in double precision.
+    pub fn to_f64(&self) -> ContactLimits<f64, JOINTS> {
+        ContactLimits {
+            least_force: self.least_force.into(),
+            greatest_force: self.greatest_force.into(),
+            friction: self.friction.into(),
+            patch: ContactPatch {
+                center: self.patch.center.map(f64::from),
+                half_x: self.patch.half_x.into(),
+                half_y: self.patch.half_y.into(),
+            },
+            torques: self.torques.map(f64::from),
+        }
+    }
+}
+
 impl<const JOINTS: usize> ContactLimits<f64, JOINTS> {
     /// The same in single precision.
     pub const fn to_f32(&self) -> ContactLimits<f32, JOINTS> {
@@ -117,6 +134,22 @@ pub struct ContactFoot<'a, T, const JOINTS: usize> {
 }
 
 impl<T: Real, const JOINTS: usize> ContactFoot<'_, T, JOINTS> {
+    /// Torques of the joints that make the wrench `w` (frame 1's axes): `τ_k = −(J_k · w)`.
+    #[inline(always)]
+    pub fn torques(&self, w: &Wrench<T>) -> [T; JOINTS] {
+        self.joints.map(|twist| -twist.power(*w))
+    }
+
+    /// The same, each within its limit: what to do while an answer is not the program's yet.
+    #[inline(always)]
+    pub fn clipped_torques(&self, w: &Wrench<T>) -> [T; JOINTS] {
+        let mut torques = self.torques(w);
+        for (torque, limit) in torques.iter_mut().zip(&self.limits.torques) {
+            *torque = torque.max(-*limit).min(*limit);
+        }
+        torques
+    }
+
     /// A wrench in frame 1's axes, turned into sole axes.
     #[inline(always)]
     pub(super) fn in_sole_axes(&self, wrench: &Wrench<T>) -> Wrench<T> {

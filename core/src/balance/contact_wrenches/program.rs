@@ -35,6 +35,9 @@ impl<'a, T: Real, const FEET: usize, const JOINTS: usize> ContactProgram<'a, T, 
         world: &'a Matrix3<T>,
         desired: Wrench<T>,
     ) -> Option<Self> {
+        if feet.iter().all(Option::is_none) {
+            return None;
+        }
         let norm_squared = weights.norm_length * weights.norm_length;
         // First term of S: what moments the feet have.
         let mut soles = T::zero();
@@ -72,6 +75,15 @@ impl<'a, T: Real, const FEET: usize, const JOINTS: usize> ContactProgram<'a, T, 
             }
         }
         Some(Self { feet, weights, world, split, least_norm, norm_squared })
+    }
+
+    /// The wrench on the central body that these foot wrenches make, in its frame.
+    pub fn achieved(&self, wrenches: &[Wrench<T>; FEET]) -> Wrench<T> {
+        let feet = self.feet.iter().zip(wrenches);
+        feet.fold(Wrench::zero(), |sum, (foot, w)| match foot {
+            Some(foot) => sum + w.shifted(foot.position),
+            None => sum,
+        })
     }
 
     /// A foot in contact.
