@@ -108,12 +108,13 @@ impl<T: Real, N: Copy, const K: usize> Factors<T, N, K> {
     /// `λ*` of (2): the multipliers that hold exactly these rows, of either sign.
     #[inline(always)]
     pub fn optimum(&self) -> [T; K] {
-        let k = self.len();
         let mut star = self.y;
-        for i in (1..k).rev() {
-            let s = star[i];
-            for j in 0..i {
-                star[j] -= self.lower[i][j] * s;
+        for (i, row) in self.lower.iter().enumerate().take(self.len()).rev() {
+            let held = star.get_mut(..=i).and_then(|held| held.split_last_mut());
+            if let Some((last, before)) = held {
+                for (x, l) in before.iter_mut().zip(row) {
+                    *x -= *l * *last;
+                }
             }
         }
         star
@@ -128,42 +129,41 @@ impl<T: Real, N: Copy, const K: usize> Factors<T, N, K> {
         if at >= k {
             return;
         }
+        // The column's part below the diagonal, where the rows will be that it belongs to.
         let mut column = [T::zero(); K];
-        for m in at + 1..k {
-            column[m - 1] = self.lower[m][at];
+        for (l, row) in column.iter_mut().zip(self.lower.iter().skip(1)).take(k - 1).skip(at) {
+            *l = row.get(at).copied().unwrap_or_else(T::zero);
         }
         let mut y_left = self.y[at];
         let mut alpha = self.pivots[at];
-        for m in at + 1..k {
-            let (before, row) = (m - 1, self.lower[m]);
-            for j in 0..at {
-                self.lower[before][j] = row[j];
-            }
-            for j in at + 1..m {
-                self.lower[before][j - 1] = row[j];
-            }
-            self.rows[before] = self.rows[m];
-            self.normals[before] = self.normals[m];
-            self.multipliers[before] = self.multipliers[m];
-            self.pivots[before] = self.pivots[m];
-            self.inverse_pivots[before] = self.inverse_pivots[m];
-            self.y[before] = self.y[m];
-        }
+        close_gap(&mut self.rows, at, k);
+        close_gap(&mut self.normals, at, k);
+        close_gap(&mut self.multipliers, at, k);
+        close_gap(&mut self.pivots, at, k);
+        close_gap(&mut self.inverse_pivots, at, k);
+        close_gap(&mut self.y, at, k);
+        close_gap(&mut self.lower, at, k);
         self.count = k - 1;
-        for j in at..k - 1 {
-            let p = column[j];
-            let pivot = self.pivots[j] + alpha * p * p;
-            let inverse = T::one() / pivot;
-            let beta = alpha * p * inverse;
-            alpha *= self.pivots[j] * inverse;
-            self.pivots[j] = pivot;
-            self.inverse_pivots[j] = inverse;
-            for m in j + 1..k - 1 {
-                column[m] -= p * self.lower[m][j];
-                self.lower[m][j] += beta * column[m];
+        for (m, row) in self.lower.iter_mut().enumerate().take(k - 1).skip(at) {
+            close_gap(row, at, m + 1);
+        }
+        let pivots = self.pivots.iter_mut().zip(&mut self.inverse_pivots).zip(&mut self.y);
+        for (j, ((pivot, inverse), y)) in pivots.enumerate().take(k - 1).skip(at) {
+            let p = column.get(j).copied().unwrap_or_else(T::zero);
+            let before = *pivot;
+            *pivot += alpha * p * p;
+            *inverse = T::one() / *pivot;
+            let beta = alpha * p * *inverse;
+            alpha *= before * *inverse;
+            let behind = self.lower.iter_mut().zip(&mut column).take(k - 1).skip(j + 1);
+            for (row, l) in behind {
+                if let Some(x) = row.get_mut(j) {
+                    *l -= p * *x;
+                    *x += beta * *l;
+                }
             }
-            y_left -= p * self.y[j];
-            self.y[j] += beta * y_left;
+            y_left -= p * *y;
+            *y += beta * y_left;
         }
     }
 
@@ -210,5 +210,17 @@ impl<T: Real, N: Copy, const K: usize> Factors<T, N, K> {
     #[inline(always)]
     pub fn leave_in(&self, active: &mut ActiveRows<T, K>) {
         *active = ActiveRows { rows: self.rows, multipliers: self.multipliers, count: self.len() };
+    }
+}
+
+/// Moves the places behind `at`, up to `end`, forward by one.
+#[inline(always)]
+fn close_gap<X: Copy>(places: &mut [X], at: usize, end: usize) {
+    let mut places = places.iter_mut().take(end).skip(at);
+    if let Some(mut to) = places.next() {
+        for from in places {
+            *to = *from;
+            to = from;
+        }
     }
 }

@@ -48,9 +48,10 @@ impl<'a, T: Real, const FEET: usize, const JOINTS: usize> ContactProgram<'a, T, 
                 soles += T::one();
             } else {
                 let r = &foot.rotation;
-                for (axis, free) in foot.limits.patch.moments().into_iter().enumerate() {
+                let axes = [r.column(0).into(), r.column(1).into(), r.column(2).into()];
+                for (axis, free) in axes.into_iter().zip(foot.limits.patch.moments()) {
                     if free {
-                        moments = moments + SymmetricMatrix3::outer(r.column(axis).into());
+                        moments = moments + SymmetricMatrix3::outer(axis);
                     }
                 }
                 remaining.torque -= foot.fixed_moment();
