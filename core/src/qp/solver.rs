@@ -109,6 +109,9 @@ pub fn solve<T: Real, P: Program<T>, const K: usize>(
 /// A point, and the row that is broken most there of those not held.
 type Tested<T, X> = (X, Option<Violation<T>>);
 
+/// How the steps ended, with the point where they ended at an optimum of the rows held.
+type Ended<T, X> = Result<(Status, Option<Tested<T, X>>), Fault>;
+
 /// A call's state beside the rows.
 struct Run<'a, T, P> {
     program: &'a P,
@@ -120,15 +123,14 @@ struct Run<'a, T, P> {
 }
 
 impl<T: Real, P: Program<T>> Run<'_, T, P> {
-    /// The steps, from rows with multipliers that are not negative. The point is there where the
-    /// steps end at an optimum of the rows held.
+    /// The steps, from rows with multipliers that are not negative.
     #[inline(always)]
     fn iterate<const K: usize>(
         &mut self,
         rows: &mut Factors<T, P::Normal, K>,
         factor: &P::Factor,
         x0: &P::Point,
-    ) -> Result<(Status, Option<Tested<T, P::Point>>), Fault> {
+    ) -> Ended<T, P::Point> {
         let (mut left, mut left_twice) = (RowSet::default(), RowSet::default());
         loop {
             let k = rows.len();

@@ -7,7 +7,7 @@ use super::{ContactFoot, ContactWeights};
 use crate::Real;
 use crate::qp::{Program, ProgramCost, Search, Work};
 use crate::spatial::{SymmetricMatrix3, Wrench};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 /// Edges and points alone may leave a moment that no foot can make, and S singular. A moment that no
 /// foot makes is then an unknown too, so dear that it is used for nothing else: it counts as a force at
@@ -48,7 +48,11 @@ impl<'a, T: Real, const FEET: usize, const JOINTS: usize> ContactProgram<'a, T, 
                 soles += T::one();
             } else {
                 let r = &foot.rotation;
-                let axes = [r.column(0).into(), r.column(1).into(), r.column(2).into()];
+                let axes = [
+                    Vector3::new(r.m11, r.m21, r.m31),
+                    Vector3::new(r.m12, r.m22, r.m32),
+                    Vector3::new(r.m13, r.m23, r.m33),
+                ];
                 for (axis, free) in axes.into_iter().zip(foot.limits.patch.moments()) {
                     if free {
                         moments = moments + SymmetricMatrix3::outer(axis);
