@@ -216,7 +216,7 @@ fn optimality<const FEET: usize>(problem: &Problem<f64, FEET>) -> f64 {
         let turned = nalgebra::Matrix3::from_diagonal(&omega) * problem.world;
         weight.fixed_view_mut::<3, 3>(block, block).copy_from(&turned);
     }
-    let task = &weight * &map;
+    let task = weight * &map;
     let desired = DVector::from_column_slice(&problem.desired.to_array());
     let inverse = norm.map(|x| if x > 0.0 { 1.0 / x } else { 0.0 });
     let gram = &map * &inverse * map.transpose();
