@@ -1,6 +1,7 @@
 //! Shared problems and fixtures of the suite.
 
 pub mod chains;
+pub mod contact_problems;
 pub mod motions;
 pub mod quadruped;
 pub mod random_trees;

@@ -22,7 +22,7 @@ pub fn rotors() -> Value {
     parse(include_str!("vectors/rotor_vectors.json"))
 }
 
-fn parse(text: &str) -> Value {
+pub(crate) fn parse(text: &str) -> Value {
     serde_json::from_str(text).expect("the vectors are valid JSON")
 }
 

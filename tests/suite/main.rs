@@ -7,4 +7,5 @@ mod dynamics;
 mod mechanics;
 mod multibody;
 mod precision;
+mod qp;
 mod spatial;

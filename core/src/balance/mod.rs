@@ -14,12 +14,14 @@
 //! being transformed, and Alg. 4.6 is one product per joint. The dissertation's link frames appear
 //! only at the surface: foot wrenches are reported in the feet's body frames.
 
+mod contact_wrenches;
 mod controller;
 mod desired_wrench;
 mod fault;
 mod foot_limits;
 mod ground_wrench;
 mod joint_torques;
+mod least_norm;
 mod leg_jacobian;
 mod leg_kinematics;
 mod robot;
@@ -29,6 +31,9 @@ mod tick;
 mod workspace_dynamics;
 mod wrench_distribution;
 
+pub use contact_wrenches::{
+    ContactFoot, ContactLimit, ContactLimits, ContactPatch, ContactProgram, ContactWeights, Reason,
+};
 pub use controller::{Controller, Gains, WorkspaceForm};
 pub use desired_wrench::{DesiredAcceleration, desired_acceleration};
 pub use fault::{Fault, FootLimit, Input};

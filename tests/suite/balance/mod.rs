@@ -1,5 +1,7 @@
 //! Chapter 4: the balance controller.
 
+mod contact_patches;
+mod contact_wrenches;
 mod distribution;
 mod faults;
 mod ground;

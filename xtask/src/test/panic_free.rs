@@ -10,8 +10,8 @@ use std::fmt::Write;
 
 const PACKAGE: &str = "surefoot-panic-free";
 
-/// Images that must not be able to panic: the tick, and the rest of core.
-const CLAIMS: [&str; 2] = ["panic-free-tick", "panic-free-dynamics"];
+/// Images that must not be able to panic: the tick, quadratic programs, and the rest of core.
+const CLAIMS: [&str; 3] = ["panic-free-tick", "panic-free-qp", "panic-free-dynamics"];
 
 /// An image that can panic on purpose; a check that finds nothing in it is broken.
 const COUNTEREXAMPLE: &str = "panic-free-counterexample";
@@ -54,7 +54,7 @@ pub fn run(arm: &ArmToolchain) -> Result<String> {
              typed fault for what cannot be."
         );
     }
-    Ok(format!("no panicking path in {}", summary.join(" and ")))
+    Ok(format!("no panicking path in {}", summary.join(", ")))
 }
 
 /// Links images and reads them.
