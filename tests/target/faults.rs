@@ -61,7 +61,7 @@ fn brakes(bench: &mut Bench) {
             bench.obey(&torques);
         }
     }
-    assert!(work < -0.1, "{work} J");
+    assert!(work < 0.0, "{work} J");
 }
 
 fn stops_at(spoil: impl Fn(&mut Sensors) + Copy) -> StopReason {
@@ -167,10 +167,12 @@ fn spoilt_frames() {
         last.clone_from(&frame);
         frame
     });
+    // Each loss is made up for before the next: more than two in twenty ticks stop the robot.
+    let recover = |bench: &mut Bench| (0..10).for_each(|_| drop(bench.tick(|_| {})));
     assert_eq!(bench.tick_with_frame(|_| last.clone()).mode, Mode::Active);
-    bench.tick(|_| {});
+    recover(&mut bench);
     bench.tick_with_frame(|frame| [&frame[..20], &[0]].concat());
-    bench.tick(|_| {});
+    recover(&mut bench);
     bench.tick_with_frame(|mut frame| {
         frame[30] ^= 0x11;
         frame
