@@ -1,7 +1,7 @@
 //! What runs when no tick does: frames, orders, replies, logs.
 
 use crate::board::{self, Counter, Link};
-use crate::control::{Order, Receiving, Record, Sending};
+use crate::control::{LIMITS, Order, Receiving, Record, Sending};
 use crate::no_init::{self, stack_bytes};
 use crate::profile::{Profile, stages};
 use surefoot::balance::{Mode, RobotState};
@@ -146,9 +146,14 @@ impl Application {
         self.send(&answer);
     }
 
+    #[inline(never)]
     fn configure(&mut self, settings: Settings) -> Acknowledged {
         if !settings.is_valid() {
             return Acknowledged::Invalid;
+        }
+        if let Err(error) = LIMITS.allows(&settings.joint_limits, &settings.thresholds) {
+            defmt::warn!("limits are refused: {}", defmt::Display2Format(&error));
+            return Acknowledged::Limit(error);
         }
         if self.mode != Mode::Standby || self.is_arming {
             return Acknowledged::Busy;

@@ -14,8 +14,11 @@ use surefoot_link::{LEGS, Pacing, SetPoint, Settings};
 /// The robot, in flash.
 pub static ROBOT: LeggedRobot<f32, LEGS> = LeggedRobot::<f64, LEGS>::new(&biped::TREE).to_f32();
 
+/// What its supervisor allows: settings may be tighter, and no wider.
+pub static LIMITS: SafetyLimits<f32, LEGS> = biped::LIMITS.to_f32();
+
 /// Seconds between ticks until the host says otherwise.
-const PERIOD: f32 = 1e-3;
+pub const PERIOD: f32 = 1e-3;
 
 /// What the application asks of the next tick.
 pub enum Order {
@@ -91,8 +94,9 @@ pub struct Control {
 }
 
 impl Control {
-    /// In standby, with the gains of the experiments and the limits of the biped.
+    /// In standby, with the gains of the experiments, for ticks [`PERIOD`] apart.
     pub fn new(
+        supervisor: Supervisor<f32, LEGS>,
         counter: Counter,
         timer: TickTimer,
         motors: Motors,
@@ -111,7 +115,7 @@ impl Control {
             records,
             controller: Controller::new(&ROBOT),
             reference: Reference::at_rest(Vector3::new(0.0, 0.0, 1.1), Quaternion::identity()),
-            supervisor: Supervisor::new(SafetyLimits::biped(), PERIOD),
+            supervisor,
             deadline: Counter::cost_of(PERIOD),
             overran: false,
             next_pacing: None,
@@ -185,9 +189,16 @@ impl Control {
         }
     }
 
+    /// Apart, so that no tick has its stack.
+    #[cold]
+    #[inline(never)]
     fn configure(&mut self, settings: &Settings) {
+        // The application has refused others.
+        let Settings { joint_limits, thresholds, period, .. } = settings;
+        if self.supervisor.tighten(&LIMITS, joint_limits, thresholds, *period).is_err() {
+            return;
+        }
         configure(&mut self.controller, settings);
-        self.supervisor = Supervisor::new(settings.limits, settings.period);
         self.deadline = Counter::cost_of(settings.period);
         self.next_pacing = Some((settings.pacing, settings.period));
     }

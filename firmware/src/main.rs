@@ -16,7 +16,7 @@
 //! dropped and counted.
 //!
 //! # Safe state
-//! On any fault torques fade to zero within 100 ticks and stay there (`surefoot::balance::Supervisor`).
+//! On any fault motors brake for a second and are off then (`surefoot::balance::Supervisor`).
 //! After a reset they are zero until the host arms the robot. The motor-enable pin is low except while
 //! the torques may differ from zero; a watchdog resets a firmware that hangs.
 
@@ -40,8 +40,8 @@ mod profile;
 mod app {
     use crate::application::Application;
     use crate::board::{Board, ByteQueue, UartReceiver};
-    use crate::control::{Control, Order, Record, TickQueue};
-    use surefoot::balance::RobotState;
+    use crate::control::{Control, LIMITS, Order, PERIOD, Record, TickQueue};
+    use surefoot::balance::{RobotState, Supervisor};
     use surefoot_link::LEGS;
 
     #[shared]
@@ -67,7 +67,18 @@ mod app {
         let (bytes_in, bytes_out) = context.local.bytes.split();
         let Board { timer, counter, motors, watchdog, uart, link } =
             Board::start(context.device, context.core, bytes_in, bytes_out);
+        let supervisor = match Supervisor::new(LIMITS, PERIOD) {
+            Ok(supervisor) => supervisor,
+            Err(error) => {
+                // With motors off, as after a reset: such an image must not run.
+                defmt::error!("{}", defmt::Display2Format(&error));
+                loop {
+                    cortex_m::asm::wfi();
+                }
+            }
+        };
         let control = Control::new(
+            supervisor,
             counter,
             timer,
             motors,

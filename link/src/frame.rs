@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Version of the messages. Both ends must have the same; it goes up when a message changes.
-pub const VERSION: u8 = 1;
+pub const VERSION: u8 = 2;
 
 /// Largest frame, in bytes on the wire, its end included.
 pub const FRAME: usize = 512;

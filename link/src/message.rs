@@ -3,7 +3,7 @@
 use crate::Tally;
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
-use surefoot::balance::{Mode, RobotState, SafetyLimits, StopReason};
+use surefoot::balance::{JointLimits, LimitError, Mode, RobotState, StopReason, Thresholds};
 use surefoot::spatial::{Quaternion, Twist};
 
 /// Legs of the robot on the link.
@@ -61,6 +61,8 @@ pub enum Acknowledged {
     Busy,
     /// Its numbers make no sense: not finite, or out of range.
     Invalid,
+    /// A limit makes no sense, or allows more than the target's own.
+    Limit(LimitError),
     /// This build does not do that.
     Unsupported,
 }
@@ -107,8 +109,10 @@ pub struct Settings {
     pub gains: [[f32; 3]; 4],
     /// Factor of the printed big base; exactly fixed feet without one.
     pub big_base: Option<f32>,
-    /// Limits of the supervisor.
-    pub limits: SafetyLimits<f32>,
+    /// Limits of the joints: none wider than the target's own.
+    pub joint_limits: [[JointLimits<f32>; LEG]; LEGS],
+    /// Thresholds of the supervisor: none wider than the target's own.
+    pub thresholds: Thresholds<f32>,
 }
 
 /// A pose to hold.
@@ -255,20 +259,14 @@ impl From<&RobotState<f32, LEGS>> for Sensors {
 }
 
 impl Settings {
-    /// Whether all numbers make sense.
+    /// Whether all numbers but limits make sense: of these the target's own decide.
     pub fn is_valid(&self) -> bool {
         let positive = |x: f32| x.is_finite() && x > 0.0;
-        let limits = &self.limits;
         positive(self.period)
             && self.period >= 1e-4
             && self.period <= 1.0
             && self.gains.iter().flatten().all(|x| positive(*x))
             && self.big_base.is_none_or(|factor| factor.is_finite() && factor >= 1.0)
-            && limits.joint_torque.iter().all(|x| positive(*x))
-            && [limits.joint_angle, limits.joint_rate, limits.encoder_slack]
-                .into_iter()
-                .all(positive)
-            && (-1.0..1.0).contains(&limits.least_upright)
     }
 }
 

@@ -1,7 +1,8 @@
 //! Frames that arrive whole give the message that was sent; all others are rejected, and counted.
 
 use proptest::prelude::*;
-use surefoot::balance::{Mode, SafetyLimits, StopReason};
+use surefoot::balance::{Mode, StopReason};
+use surefoot::model::robots::biped;
 use surefoot_link::{
     FRAME, FaultLog, FromTarget, LoggedFault, Pacing, Receiver, Rejected, Sender, Sensors,
     Settings, Status, Tally, ToTarget, Torques,
@@ -82,7 +83,8 @@ fn the_longest_messages_fit_a_frame() {
         pacing: Pacing::FreeRunning,
         gains: [[50.0; 3]; 4],
         big_base: Some(1e3),
-        limits: SafetyLimits::biped(),
+        joint_limits: biped::LIMITS.to_f32().joints,
+        thresholds: biped::LIMITS.to_f32().thresholds,
     };
     let longest = longest.max(frame(&mut sender, &ToTarget::Configure(settings)).len());
     let torques = Torques {

@@ -1,7 +1,8 @@
 //! A plant on the host with a target at its motors, in lock step, and every wire open to tampering.
 
 use std::path::PathBuf;
-use surefoot::balance::{Mode, SafetyLimits};
+use surefoot::balance::{JointLimits, Mode, SafetyLimits};
+use surefoot::model::robots::biped;
 use surefoot_link::{Sensors, ToTarget, Torques};
 use surefoot_sim::closed_loop::firmware::{Emulator, Target, set_point, settings};
 use surefoot_sim::closed_loop::measured;
@@ -27,7 +28,7 @@ pub struct Bench {
     pub scene: Scene,
     pub plant: Variational,
     pub target: Target,
-    pub limits: SafetyLimits<f32>,
+    pub limits: SafetyLimits<f32, 2>,
     time: f64,
     torques: [f64; 12],
 }
@@ -42,7 +43,7 @@ impl Bench {
         let plant =
             Variational::on_floor(&start, step, *floor, &outline.sole(), &Additions::default())
                 .expect("a plant");
-        Self { scene, plant, target, limits: SafetyLimits::biped(), time: 0.0, torques: [0.0; 12] }
+        Self { scene, plant, target, limits: biped::LIMITS.to_f32(), time: 0.0, torques: [0.0; 12] }
     }
 
     /// After `ticks` ordinary ticks, at the end of which it is active.
@@ -83,11 +84,12 @@ impl Bench {
     }
 
     /// The plant moves by one tick under these torques, which are within their limits.
-    fn obey(&mut self, torques: &Torques) {
-        for leg in torques.joint_torques {
-            for (torque, limit) in leg.iter().zip(self.limits.joint_torque) {
-                assert!(torque.abs() <= limit, "{torque} N·m, and the limit is {limit}");
-            }
+    pub fn obey(&mut self, torques: &Torques) {
+        let joints = self.limits.joints.iter().flatten();
+        for (torque, JointLimits { torque: limit, .. }) in
+            torques.joint_torques.iter().flatten().zip(joints)
+        {
+            assert!(torque.abs() <= *limit, "{torque} N·m, and the limit is {limit}");
         }
         let [left, right] = torques.joint_torques;
         self.torques =

@@ -1,38 +1,35 @@
 //! Host and target compute the same bits.
 
 use crate::bench::target;
-use surefoot::balance::{Controller, LeggedRobot, Reference, RobotState, SafetyLimits, Supervisor};
-use surefoot::model::robots::biped;
-use surefoot::spatial::Quaternion;
+use surefoot::balance::StopReason;
 use surefoot_link::Torques;
-use surefoot_sim::closed_loop::firmware::{FirmwareController, set_point, settings};
-use surefoot_sim::closed_loop::{self, Commanded, ControlFailure, measured};
+use surefoot_sim::closed_loop::firmware::FirmwareController;
+use surefoot_sim::closed_loop::{self, Commanded, ControlFailure, Controller, Scalar};
 use surefoot_sim::plant::PlantState;
-use surefoot_sim::scene::load;
-
-static ROBOT: LeggedRobot<f32, 2> = LeggedRobot::<f64, 2>::new(&biped::TREE).to_f32();
+use surefoot_sim::scene::{Feet, Outline, load};
 
 /// The target in the loop, and the host's controller beside it on the same measurements.
 struct Twins {
     target: FirmwareController,
-    controller: Controller<'static, f32, 2>,
-    reference: Reference<f32>,
-    supervisor: Supervisor<f32, 2>,
+    host: Box<dyn Controller>,
     compared: usize,
 }
 
-impl closed_loop::Controller for Twins {
+impl Controller for Twins {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let answer = self.target.tick(state)?;
-        let state: RobotState<f32, 2> = measured(state);
-        let host = self.supervisor.step(&self.controller, Some(&state), &self.reference, false);
-        for (host, target) in host.joint_torques.iter().flatten().zip(answer.torques) {
-            assert_eq!(host.to_bits(), (target as f32).to_bits(), "tick {}", self.compared / 12);
+        let host = self.host.tick(state)?;
+        for (host, target) in host.torques.iter().zip(answer.torques) {
+            assert_eq!(host.to_bits(), target.to_bits(), "tick {}", self.compared / 12);
             self.compared += 1;
         }
-        let wrench = host.command.expect("a tick's answer").desired_wrench.to_array();
-        assert_eq!(wrench.map(f64::from), answer.desired_wrench);
+        assert_eq!(host.desired_wrench, answer.desired_wrench);
+        assert_eq!(self.host.stopped(), self.target.stopped());
         Ok(answer)
+    }
+
+    fn stopped(&self) -> Option<StopReason> {
+        self.target.stopped()
     }
 }
 
@@ -40,20 +37,8 @@ impl closed_loop::Controller for Twins {
 fn plays_equally(name: &str) {
     let scene = load(name).expect("built in");
     let target = FirmwareController::new(target(), &scene).expect("obeyed");
-    let pose = set_point(&scene);
-    let mut controller = Controller::new(&ROBOT);
-    controller.gains = gains(&settings(&scene).gains);
-    let mut twins = Twins {
-        target,
-        controller,
-        reference: Reference::at_rest(
-            pose.position.into(),
-            Quaternion::from_array(pose.orientation),
-        ),
-        supervisor: Supervisor::new(SafetyLimits::biped(), settings(&scene).period),
-        compared: 0,
-    };
-    twins.supervisor.arm();
+    let host = closed_loop::controller(&scene, Scalar::F32);
+    let mut twins = Twins { target, host, compared: 0 };
     let run = closed_loop::run(&scene, &mut twins, &mut |_| {});
     assert_eq!(run.failure, None);
     assert_eq!(run.outcome, closed_loop::Outcome::Balanced);
@@ -73,12 +58,6 @@ fn plays_equally(name: &str) {
     assert_eq!((status.overruns, status.telemetry_dropped, status.received.lost), (0, 0, 0));
 }
 
-fn gains(diagonals: &[[f32; 3]; 4]) -> surefoot::balance::Gains<f32> {
-    let [position, velocity, orientation, angular_velocity] =
-        diagonals.map(|[x, y, z]| surefoot::spatial::SymmetricMatrix3::diagonal(x, y, z));
-    surefoot::balance::Gains { position, velocity, orientation, angular_velocity }
-}
-
 #[test]
 fn experiment_1_is_the_same_to_the_last_bit() {
     plays_equally("experiment-1");
@@ -92,6 +71,30 @@ fn experiment_2_is_the_same_to_the_last_bit() {
 #[test]
 fn twenty_seconds_of_pushes_are_the_same_to_the_last_bit() {
     plays_equally("experiment-1-pushes");
+}
+
+/// Smaller soles, which are hit harder at the start, do not stop the target; a floor without friction does,
+/// and it brakes as the host does.
+#[test]
+fn supervisors_are_the_same_to_the_last_bit() {
+    for (name, sole, friction, is_stopped) in [
+        ("experiment-1", Outline::R, 0.3, false),
+        ("experiment-1", Outline::M, 0.3, false),
+        ("experiment-2", Outline::R, 0.3, false),
+        ("experiment-2", Outline::A, 0.0, true),
+    ] {
+        let mut scene = load(name).expect("built in");
+        if let Feet::Floor { outline, floor } = &mut scene.feet {
+            *outline = sole;
+            (floor.static_friction, floor.dynamic_friction) = (friction, friction);
+        }
+        let target = FirmwareController::new(target(), &scene).expect("obeyed");
+        let host = closed_loop::controller(&scene, Scalar::F32);
+        let mut twins = Twins { target, host, compared: 0 };
+        let run = closed_loop::run(&scene, &mut twins, &mut |_| {});
+        println!("{name}, {sole:?}: {:?} {:?}", run.outcome, run.stop);
+        assert_eq!(run.stop.is_some(), is_stopped);
+    }
 }
 
 /// The emulator's instruction clock repeats.

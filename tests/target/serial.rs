@@ -77,7 +77,6 @@ fn a_free_running_target_keeps_its_deadline_and_stops_without_its_host() {
     let mut settings = settings(&scene);
     settings.pacing = Pacing::FreeRunning;
     settings.period = 0.09;
-    settings.limits.stop_ticks = 5;
     // While this side waits for its turn on the machine the target's clock may run on by more ticks than are bridged:
     // it then stops, rightly, and is begun again.
     let in_time = (0..10).find_map(|_| {

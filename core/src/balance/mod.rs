@@ -44,7 +44,10 @@ pub use leg_jacobian::LegJacobian;
 pub use leg_kinematics::{CentralBody, LegKinematics, central_body, leg_kinematics};
 pub use robot::{LeggedRobot, LeggedRobotFault};
 pub use state::{Reference, RobotState};
-pub use supervisor::{Mode, SafetyLimits, StopReason, Supervised, Supervisor};
+pub use supervisor::{
+    Before, JointDamping, JointLimits, LimitError, LimitFault, LimitField, Mode, SafetyLimits,
+    StopReason, Supervised, Supervisor, SupervisorMemory, Thresholds,
+};
 pub use tick::{Command, tick};
 pub use workspace_dynamics::{WorkspaceDynamics, big_base, fixed_foot_dynamics, fixed_foot_wrench};
 pub use wrench_distribution::{FootWrenches, wrench_distribution};

@@ -28,8 +28,10 @@ pub struct ControllerOptions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Place {
-    /// In this process.
+    /// In this process, under its supervisor.
     Host,
+    /// In this process, without a supervisor.
+    Bare,
     /// On the target: in the emulator, or on a board.
     Firmware,
 }
@@ -50,15 +52,17 @@ impl ControllerOptions {
     /// The precision in effect.
     pub fn scalar(&self) -> Scalar {
         match self.place {
-            Place::Host => self.scalar,
+            Place::Host | Place::Bare => self.scalar,
             Place::Firmware => Scalar::F32,
         }
     }
 
     /// A controller for a scene, ready for its first tick.
     pub fn controller(&self, scene: &Scene) -> Result<Box<dyn Controller>, LinkError> {
-        if self.place == Place::Host {
-            return Ok(closed_loop::controller(scene, self.scalar));
+        match self.place {
+            Place::Host => return Ok(closed_loop::controller(scene, self.scalar)),
+            Place::Bare => return Ok(closed_loop::bare_controller(scene, self.scalar)),
+            Place::Firmware => {}
         }
         let target = match &self.port {
             Some(port) => Target::connect(SerialPort::open(port)?)?,

@@ -31,6 +31,8 @@ impl<'a> Report<'a> {
         let controller = match (self.controller, self.scalar) {
             (Place::Host, Scalar::F32) => "f32, on the host",
             (Place::Host, Scalar::F64) => "f64, on the host",
+            (Place::Bare, Scalar::F32) => "f32, on the host, without its supervisor",
+            (Place::Bare, Scalar::F64) => "f64, on the host, without its supervisor",
             (Place::Firmware, _) => "f32, on the target",
         };
         crate::report::Report { scene: self.scene, controller, run: self.run, other: self.other }
@@ -71,6 +73,7 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
     let word = match run.outcome {
         Outcome::Balanced => "BALANCED",
         Outcome::Completed => "COMPLETED, but not at the set point",
+        Outcome::Stopped => "STOPPED by its supervisor",
         Outcome::Fell => "FELL",
         Outcome::Failed => "FAILED",
     };
@@ -206,6 +209,11 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "constraint_max": run.constraint_max,
         "peak_torque_nm": peak_torque,
         "cut_torques": run.cut_torques,
+        "supervisor": (*controller != Place::Bare).then(|| json!({
+            "stopped": run.stop.is_some(),
+            "time_s": run.stop.map(|stop| stop.time_s),
+            "reason": run.stop.map(|stop| stop.reason.to_string()),
+        })),
         "desired_force_z_n": {
             "max": peaks.map(|peaks| peaks.force_z.value),
             "final": last.map(|sample| sample.desired_wrench[2]),

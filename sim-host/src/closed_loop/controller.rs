@@ -2,7 +2,9 @@
 
 use super::approximate::{ApproximateController, Approximation};
 use super::firmware::LinkError;
+use super::supervised::SupervisedController;
 use crate::plant::PlantState;
+use crate::record::SupervisorMemory;
 use crate::scene::{Scene, Workspace};
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -43,6 +45,22 @@ pub trait Controller {
     /// Why there are no torques.
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure>;
 
+    /// Why its supervisor has stopped the robot, if it has: its torques brake from then on.
+    fn stopped(&self) -> Option<StopReason> {
+        None
+    }
+
+    /// What its supervisor remembers of earlier ticks, if it has one on this side.
+    fn memory(&self) -> Option<SupervisorMemory> {
+        None
+    }
+
+    /// Goes on with what a supervisor remembered; `false` if it has none.
+    fn remember(&mut self, memory: &SupervisorMemory) -> bool {
+        let _ = memory;
+        false
+    }
+
     /// What its ticks have cost so far, if it runs on a target that counts.
     fn costs(&self) -> Option<Costs> {
         None
@@ -70,20 +88,20 @@ pub enum ControlFailure {
     /// The tick's fault.
     #[error("{0}")]
     Fault(Fault),
-    /// The target's supervisor has stopped the robot.
-    #[error("the target has stopped: {0}")]
-    Stopped(StopReason),
     /// The link to the target.
     #[error("{0}")]
     Link(#[from] LinkError),
 }
+
+/// What to try where the controller has a fault.
+pub(super) const FAULT_ADVICE: &str =
+    "start with bent knees, and keep the set point within the legs' reach";
 
 impl ControlFailure {
     /// A word for programs.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Fault(_) => "controller-fault",
-            Self::Stopped(_) => "target-stopped",
             Self::Link(_) => "link",
         }
     }
@@ -91,10 +109,7 @@ impl ControlFailure {
     /// What to try.
     pub fn advice(&self) -> &'static str {
         match self {
-            Self::Fault(_) | Self::Stopped(StopReason::Tick(_)) => {
-                "start with bent knees, and keep the set point within the legs' reach"
-            }
-            Self::Stopped(_) => "see the target's log; its limits are in its supervisor",
+            Self::Fault(_) => FAULT_ADVICE,
             Self::Link(_) => "check the cable and the firmware's version, or the emulator's output",
         }
     }
@@ -106,8 +121,24 @@ pub struct HostController<T: 'static> {
     pub(super) reference: Reference<T>,
 }
 
-/// The controller of a scene.
+/// The controller of a scene, under its supervisor: what runs on the target.
 pub fn controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
+    match scalar {
+        Scalar::F32 => Box::new(SupervisedController::new(
+            HostController::new(&ROBOT_F32, scene),
+            biped::LIMITS.to_f32(),
+            scene,
+        )),
+        Scalar::F64 => Box::new(SupervisedController::new(
+            HostController::new(&ROBOT, scene),
+            biped::LIMITS,
+            scene,
+        )),
+    }
+}
+
+/// The same without a supervisor.
+pub fn bare_controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
     match scalar {
         Scalar::F32 => Box::new(HostController::new(&ROBOT_F32, scene)),
         Scalar::F64 => Box::new(HostController::new(&ROBOT, scene)),

@@ -12,14 +12,16 @@ mod outcome;
 mod plant;
 mod run;
 mod sensing;
+mod supervised;
 
 pub use acting::{CutTorques, Motors};
 pub use approximate::{ApproximateController, Approximation};
 pub use controller::{
     Commanded, ControlFailure, Controller, Costs, HostController, Scalar, approximate_controller,
-    controller, measured,
+    bare_controller, controller, measured,
 };
 pub use outcome::{Failure, Outcome, Peak, Peaks};
 pub use plant::plant;
-pub use run::{Run, run, run_from, run_plant};
+pub use run::{Run, Stop, run, run_from, run_plant};
 pub use sensing::Sensors;
+pub use supervised::SupervisedController;

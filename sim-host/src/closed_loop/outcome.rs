@@ -11,6 +11,8 @@ pub enum Outcome {
     Balanced,
     /// Upright at the end, but not at the set point.
     Completed,
+    /// The controller's supervisor stopped the robot.
+    Stopped,
     /// The robot fell.
     Fell,
     /// The run could not go on.
@@ -20,7 +22,7 @@ pub enum Outcome {
 /// Why a run ended early.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Failure {
-    /// A word for programs: `fell`, `controller-fault`, `step`.
+    /// A word for programs: `stopped`, `fell`, `controller-fault`, `step`.
     pub kind: &'static str,
     /// When, s.
     pub time_s: f64,

@@ -1,5 +1,6 @@
 //! One run of a scene.
 
+use super::controller::FAULT_ADVICE;
 use super::errors::set_point_errors;
 use super::events::Watch;
 use super::memory::{memory, remember};
@@ -12,6 +13,7 @@ use crate::record::{Event, Sample, SavedMotion, SavedRun};
 use crate::scene::{Scene, TorquesFrom};
 use nalgebra::Vector3;
 use std::time::{Duration, Instant};
+use surefoot::balance::StopReason;
 use surefoot::spatial::Quaternion;
 
 /// What a run gives.
@@ -39,6 +41,17 @@ pub struct Run {
     pub costs: Option<Costs>,
     /// What the motors could not give.
     pub cut_torques: CutTorques,
+    /// That the controller's supervisor has stopped the robot.
+    pub stop: Option<Stop>,
+}
+
+/// A stop by the supervisor. The run goes on: motors brake, until the robot lies or the time is over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    /// When, s.
+    pub time_s: f64,
+    /// Why.
+    pub reason: StopReason,
 }
 
 /// A central body this low (m), or tilted this far (cosine of 60°), has fallen.
@@ -73,7 +86,11 @@ pub fn run_plant(
 ) -> Run {
     let started = Instant::now();
     let mut run = Run::new();
-    let result = advance(scene, plant, controller, (from, progress), &mut run)
+    let result = advance(scene, plant, controller, (from, progress), &mut run);
+    // Whatever came of it later.
+    let result = run
+        .stop
+        .map_or(result, |stop| Err(stopped(stop)))
         .map_err(|failure| with_step_limit(failure, scene, plant))
         .map_err(|failure| with_hardware(failure, scene));
     run.progress = plant.progress().copied();
@@ -98,6 +115,7 @@ impl Run {
             saved: None,
             costs: None,
             cut_torques: CutTorques::default(),
+            stop: None,
         }
     }
 }
@@ -105,7 +123,11 @@ impl Run {
 /// With the way that it ended.
 fn ended(mut run: Run, result: Result<(), Failure>) -> Run {
     if let Err(failure) = result {
-        run.outcome = if failure.kind == "fell" { Outcome::Fell } else { Outcome::Failed };
+        run.outcome = match failure.kind {
+            "stopped" => Outcome::Stopped,
+            "fell" => Outcome::Fell,
+            _ => Outcome::Failed,
+        };
         run.failure = Some(failure);
     } else if let Some(last) = run.samples.last() {
         let arrived = last.error_distance() < 1e-3 && last.error_angle() < 0.1_f64.to_radians();
@@ -130,7 +152,7 @@ fn advance(
     let mut sensors = Sensors::new(&scene.sensing, steps_per_tick as f64 * step);
     let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize);
     let mut first = 0;
-    if let Some(SavedRun { torques_on, checkpoint, hardware, .. }) = from {
+    if let Some(SavedRun { torques_on, checkpoint, hardware, supervisor, .. }) = from {
         let SavedMotion::Tree(checkpoint) = checkpoint else {
             return Err(step_failure(0.0, SystemError::OtherCheckpoint.into()));
         };
@@ -144,6 +166,10 @@ fn advance(
         if !remember(scene, hardware.as_ref(), first, &mut sensors, &mut motors) {
             return Err(other_hardware(made as f64 * step));
         }
+        // A run saved under another controller goes on as if this one were armed now.
+        if let Some(memory) = supervisor {
+            controller.remember(memory);
+        }
         watch = plant.contacts().as_ref().map_or(watch, Watch::from);
         watch.look_at_block(0.0, plant.is_struck(), &mut Vec::new());
     }
@@ -153,7 +179,11 @@ fn advance(
         let state = plant.state().map_err(|failure| step_failure(time, failure))?;
         // A run that is taken up again begins with this tick.
         let memory = (tick == ticks).then(|| memory(scene, &sensors, &motors)).flatten();
+        let supervisor = (tick == ticks).then(|| controller.memory()).flatten();
         let command = command(&sensors.read(&state), controller, touched, time)?;
+        if run.stop.is_none() {
+            run.stop = controller.stopped().map(|reason| Stop { time_s: time, reason });
+        }
         motors.command(&command.torques, time);
         run.cut_torques = motors.cut();
         sample(plant, scene, &state, (&command.desired_wrench, &motors.over_step(0)), time, run)?;
@@ -167,6 +197,7 @@ fn advance(
                 torques_on: touched,
                 checkpoint: SavedMotion::Tree(checkpoint.clone()),
                 hardware: memory,
+                supervisor,
             });
             break;
         }
@@ -269,6 +300,22 @@ fn with_hardware(mut failure: Failure, scene: &Scene) -> Failure {
         failure.advice += "; or a shorter delay, better sensors, stronger motors, lower gains";
     }
     failure
+}
+
+/// What a stop says of a run.
+fn stopped(Stop { time_s, reason }: Stop) -> Failure {
+    let advice = match reason {
+        StopReason::Tick(_) => FAULT_ADVICE,
+        StopReason::Saturated { .. } => {
+            "a smaller disturbance, a set point nearer by, or stronger motors"
+        }
+        StopReason::Tilt | StopReason::Height | StopReason::FreeFall => {
+            "see the record: which foot slips, tips or leaves the floor first"
+        }
+        _ => "see the measurements before; the limits are those of the robot's description",
+    };
+    let place = format!("the supervisor stopped the robot: {reason}");
+    Failure { kind: "stopped", time_s, place, advice: advice.into() }
 }
 
 fn not_at_a_tick(time_s: f64) -> Failure {

@@ -64,6 +64,7 @@ mod tests {
             saved: None,
             costs: None,
             cut_torques: crate::closed_loop::CutTorques::default(),
+            stop: None,
         }
     }
 

@@ -141,6 +141,7 @@ pub fn run_model(
         torques_on: false,
         checkpoint,
         hardware: None,
+        supervisor: None,
     });
     run.wall = begun.elapsed();
     Ok(run)

@@ -1,7 +1,9 @@
 //! The controllers whose torques are compared: precision, feet, and what is left out.
 
 use crate::callgrind::word;
-use crate::closed_loop::{Approximation, Controller, Scalar, approximate_controller, controller};
+use crate::closed_loop::{
+    Approximation, Controller, Scalar, approximate_controller, bare_controller,
+};
 use crate::scene::{Scene, Workspace};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -37,12 +39,13 @@ impl ControllerForm {
             .collect()
     }
 
-    /// With the gains and the set point of a scene.
+    /// With the gains and the set point of a scene. Its torques are those of one state, so that it has no
+    /// supervisor, which remembers the one before.
     pub fn controller(&self, scene: &Scene) -> Box<dyn Controller> {
         let mut scene = scene.clone();
         scene.controller.workspace = self.factor.map_or(Workspace::FixedFoot, Workspace::BigBase);
         match self.approximation {
-            None => controller(&scene, self.scalar),
+            None => bare_controller(&scene, self.scalar),
             Some(approximation) => approximate_controller(&scene, self.scalar, approximation),
         }
     }

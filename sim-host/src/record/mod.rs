@@ -11,7 +11,7 @@ pub use self::csv::write_csv;
 pub use event::{Event, EventKind};
 pub use foxglove::{RecordFailure, write_mcap};
 pub use mechanism_csv::write_mechanism_csv;
-pub use saved::{HardwareMemory, SavedMotion, SavedRun};
+pub use saved::{HardwareMemory, MeasuredBefore, SavedMotion, SavedRun, SupervisorMemory};
 pub use settling::Settling;
 
 use crate::contact::ContactState;

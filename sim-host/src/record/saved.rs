@@ -3,6 +3,7 @@
 use crate::multibody::{BodyCheckpoint, Checkpoint, PlanarCheckpoint};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
+use surefoot::balance::{Mode, StopReason};
 
 /// Where a run stopped. Numbers are written with as many digits as give back the same bits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,6 +18,9 @@ pub struct SavedRun {
     /// What a robot's sensors and motors remember; none where they are ideal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardware: Option<HardwareMemory>,
+    /// What the controller's supervisor remembers; none where there is none on this side.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub supervisor: Option<SupervisorMemory>,
 }
 
 /// All that a motion needs to go on, by the simulator that plays it.
@@ -39,6 +43,35 @@ pub struct HardwareMemory {
     pub encoder_counts: Option<[f64; 12]>,
     /// Torques on their way to the motors, oldest first, one set a tick, N·m.
     pub torques: Vec<[f64; 12]>,
+}
+
+/// What a supervisor remembers of earlier ticks, left leg then right.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)] // Each is the field of that name of the core's `SupervisorMemory`.
+pub struct SupervisorMemory {
+    pub mode: Mode,
+    pub reason: Option<StopReason>,
+    pub torques: [f64; 12],
+    pub before: Option<MeasuredBefore>,
+    pub missed: u8,
+    pub owed: u16,
+    pub doubtful: u8,
+    pub falling: u16,
+    pub saturated: u16,
+    pub highest: Option<f64>,
+    pub cut: u32,
+}
+
+/// The measurement that the next one is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)] // Each is the field of that name of the core's `Before`.
+pub struct MeasuredBefore {
+    pub positions: [f64; 19],
+    pub velocities: [f64; 18],
+    pub velocity: [f64; 3],
+    pub unexplained: [[u8; 4]; 2],
 }
 
 impl SavedRun {

@@ -63,13 +63,18 @@ fn a_run_that_fails_says_why() {
             ("position_m = [-0.01, 0.0, 1.10]", "position_m = [0.0, 0.0, 0.9]"),
         ],
     );
-    for (arguments, kind, words) in [
-        (vec!["run", &path], "controller-fault", vec!["leg 0", "straight knee"]),
+    let too_long = ["run", "--integrator", "semi-implicit-euler", "--step", "0.001"];
+    let bare = ["--controller", "bare"];
+    for (arguments, outcome, kind, words) in [
+        (vec!["run", &path], "stopped", "stopped", vec!["leg 0", "straight knee"]),
         (
-            vec!["run", "--integrator", "semi-implicit-euler", "--step", "0.001"],
-            "step",
-            vec!["velocity", "limit of stability"],
+            [&["run", &path][..], &bare].concat(),
+            "failed",
+            "controller-fault",
+            vec!["leg 0", "straight knee"],
         ),
+        (too_long.to_vec(), "stopped", "stopped", vec!["supervisor", "limit of stability"]),
+        ([&too_long[..], &bare].concat(), "failed", "step", vec!["velocity", "limit of stability"]),
     ] {
         let (status, stdout, stderr) = said(&surefoot(&folder, &arguments));
         assert_eq!(status, Some(1), "{arguments:?}: {stderr}");
@@ -80,8 +85,10 @@ fn a_run_that_fails_says_why() {
         let (status, stdout, _) = said(&surefoot(&folder, &json));
         assert_eq!(status, Some(1));
         let document: Value = serde_json::from_str(&stdout).expect("one document");
-        assert_eq!(document["outcome"], "failed");
+        assert_eq!(document["outcome"], outcome);
         assert_eq!(document["failure"]["kind"], kind);
+        let stopped = &document["supervisor"]["stopped"];
+        assert_eq!(stopped.as_bool(), (!arguments.contains(&"bare")).then_some(true));
         for key in ["time_s", "where", "advice"] {
             assert!(!document["failure"][key].is_null(), "failure.{key}");
         }

@@ -1,12 +1,14 @@
-//! The supervisor: torques within limits whatever happens, and a stop that ends in zero.
+//! The supervisor: torques within limits whatever happens, doubt, and a stop that brakes and ends in zero.
 
+use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use surefoot::Real;
 use surefoot::balance::{
-    Controller, Fault, LeggedRobot, Mode, Reference, RobotState, SafetyLimits, StopReason,
-    Supervised, Supervisor,
+    Controller, Fault, Input, LeggedRobot, LimitError, LimitFault, LimitField, Mode, Reference,
+    RobotState, SafetyLimits, StopReason, Supervised, Supervisor,
 };
+use surefoot::dynamics::{joint_poses, mass_matrix};
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
 
@@ -35,36 +37,58 @@ struct Loop<T: 'static> {
     controller: Controller<'static, T, 2>,
     reference: Reference<T>,
     supervisor: Supervisor<T, 2>,
-    limits: SafetyLimits<T>,
+    limits: SafetyLimits<T, 2>,
 }
 
-impl<T: Real> Loop<T> {
-    fn new(robot: &'static LeggedRobot<T, 2>) -> Self {
-        let limits = SafetyLimits::biped();
+/// A robot in a precision, with its limits in that.
+trait Biped: Real {
+    const ROBOT: &'static LeggedRobot<Self, 2>;
+    const LIMITS: SafetyLimits<Self, 2>;
+}
+
+impl Biped for f64 {
+    const ROBOT: &'static LeggedRobot<f64, 2> = &ROBOT;
+    const LIMITS: SafetyLimits<f64, 2> = biped::LIMITS;
+}
+
+impl Biped for f32 {
+    const ROBOT: &'static LeggedRobot<f32, 2> = &ROBOT_F32;
+    const LIMITS: SafetyLimits<f32, 2> = biped::LIMITS.to_f32();
+}
+
+impl<T: Biped> Loop<T> {
+    fn new() -> Self {
         Self {
-            controller: Controller::new(robot),
+            controller: Controller::new(T::ROBOT),
             reference: reference(),
-            supervisor: Supervisor::new(limits, T::of(PERIOD)),
-            limits,
+            supervisor: Supervisor::new(T::LIMITS, T::of(PERIOD)).expect("limits"),
+            limits: T::LIMITS,
         }
+    }
+
+    /// Armed, after a first tick at rest.
+    fn armed() -> Self {
+        let mut it = Self::new();
+        it.supervisor.arm();
+        it.step(Some(&crouch()), false);
+        it
     }
 
     /// One step, whose torques are numbers within limits.
     fn step(&mut self, measured: Option<&RobotState<T, 2>>, overran: bool) -> Supervised<T, 2> {
         let out = self.supervisor.step(&self.controller, measured, &self.reference, overran);
-        for leg in out.joint_torques {
-            for (torque, limit) in leg.iter().zip(self.limits.joint_torque) {
-                assert!(torque.abs() <= limit, "{} N·m", torque.to_f64());
-            }
+        let joints = self.limits.joints.iter().flatten();
+        for (torque, joint) in out.joint_torques.iter().flatten().zip(joints) {
+            assert!(torque.abs() <= joint.torque, "{} N·m", torque.to_f64());
         }
         out
     }
 }
 
 /// Ten thousand ticks of good, bad, missing and late measurements, with orders in between.
-fn whatever_happens<T: Real>(robot: &'static LeggedRobot<T, 2>) {
+fn whatever_happens<T: Biped>() {
     let mut rng = Pcg64Mcg::seed_from_u64(11);
-    let mut it = Loop::new(robot);
+    let mut it = Loop::<T>::new();
     let mut stops = 0;
     for _ in 0..10_000 {
         let mut state = crouch::<T>();
@@ -89,6 +113,11 @@ fn whatever_happens<T: Real>(robot: &'static LeggedRobot<T, 2>) {
             stops += 1;
         }
         assert!(matches!(after, Mode::Active | Mode::Stopping { .. }) || is_zero(&out));
+        // A stop lasts for 500 ticks, longer than most of what happens here.
+        if rng.random_range(0..20) == 0 {
+            it.supervisor.disarm();
+            it.supervisor.arm();
+        }
     }
     assert!(stops > 30, "{stops} stops are no test");
 }
@@ -99,14 +128,14 @@ fn is_zero<T: Real>(out: &Supervised<T, 2>) -> bool {
 
 #[test]
 fn torques_stay_within_limits_whatever_happens() {
-    whatever_happens(&ROBOT);
-    whatever_happens(&ROBOT_F32);
+    whatever_happens::<f64>();
+    whatever_happens::<f32>();
 }
 
 /// The way round: standby, active, stopping, stopped, active.
 #[test]
 fn modes_follow_each_other() {
-    let mut it = Loop::new(&ROBOT);
+    let mut it = Loop::<f64>::new();
     let state = crouch();
     assert!(is_zero(&it.step(Some(&state), false)), "nothing moves before it is armed");
     it.supervisor.arm();
@@ -117,17 +146,13 @@ fn modes_follow_each_other() {
 
     // One measurement missing is bridged, the second is not.
     assert_eq!(it.step(None, false).joint_torques, sent.joint_torques);
-    let first = it.step(None, false);
+    assert!(is_zero(&it.step(None, false)), "of a robot of which nothing is known");
     assert_eq!(it.supervisor.reason(), Some(StopReason::Stale));
-    let mut before = first.joint_torques;
-    for left in (0..it.limits.stop_ticks - 1).rev() {
-        // Orders to begin anew wait until the torques are gone.
+    let ticks = (it.limits.stop_s / PERIOD).round() as u16;
+    for left in (0..ticks - 1).rev() {
+        // Orders to begin anew wait until the stop is over.
         it.supervisor.arm();
-        let out = it.step(Some(&state), false);
-        for (now, before) in out.joint_torques.iter().flatten().zip(before.iter().flatten()) {
-            assert!(now.abs() <= before.abs(), "torques only fade");
-        }
-        before = out.joint_torques;
+        assert!(is_zero(&it.step(Some(&state), false)), "a robot at rest is not moved");
         let expected = if left == 0 { Mode::Stopped } else { Mode::Stopping { left } };
         assert_eq!(it.supervisor.mode(), expected);
     }
@@ -140,54 +165,287 @@ fn modes_follow_each_other() {
     assert!(is_zero(&it.step(Some(&state), false)));
 }
 
-/// Each fault by its name.
+/// Each fault by its name, at its first tick.
 #[test]
 fn reasons_say_what_was_wrong() {
     type Spoil = fn(&mut RobotState<f64, 2>);
-    let cases: [(Spoil, StopReason); 6] = [
+    let cases: [(Spoil, StopReason); 9] = [
         (|s| s.joint_angles[1][2] = f64::NAN, StopReason::Encoder { leg: 1, joint: 2 }),
-        (|s| s.joint_rates[0][4] = 1e3, StopReason::Encoder { leg: 0, joint: 4 }),
-        (|s| s.joint_angles[0][3] += 0.01, StopReason::Frozen { leg: 0, joint: 3 }),
-        (
-            |s| s.orientation.s = 0.5,
-            StopReason::Tick(Fault::NotUnit(surefoot::balance::Input::Orientation)),
-        ),
+        (|s| s.joint_angles[1][2] = 3.3, StopReason::Encoder { leg: 1, joint: 2 }),
+        (|s| s.joint_rates[0][4] = 150.0, StopReason::Encoder { leg: 0, joint: 4 }),
+        (|s| s.joint_angles[0][3] += 0.05, StopReason::Jump { leg: 0, joint: 3 }),
+        (|s| s.position.y += 0.3, StopReason::BodyJump(Input::Position)),
+        (|s| s.velocity.linear.x = 3.0, StopReason::BodyJump(Input::Position)),
+        (|s| s.orientation.s = 0.5, StopReason::Tick(Fault::NotUnit(Input::Orientation))),
         (
             |s| s.orientation = Quaternion::from_array([0.5_f64.sqrt(), 0.5_f64.sqrt(), 0.0, 0.0]),
             StopReason::Tilt,
         ),
-        (
-            |s| s.position.x = f64::INFINITY,
-            StopReason::Tick(Fault::NotFinite(surefoot::balance::Input::Position)),
-        ),
+        (|s| s.position.x = f64::INFINITY, StopReason::Tick(Fault::NotFinite(Input::Position))),
     ];
     for (spoil, expected) in cases {
-        let mut it = Loop::new(&ROBOT);
-        it.supervisor.arm();
-        it.step(Some(&crouch()), false);
+        let mut it = Loop::<f64>::armed();
         let mut bad = crouch();
         spoil(&mut bad);
         it.step(Some(&bad), false);
         assert_eq!(it.supervisor.reason(), Some(expected));
         assert!(!expected.to_string().is_empty());
     }
-    let mut it = Loop::new(&ROBOT);
+    let mut it = Loop::<f64>::new();
     it.supervisor.arm();
     it.step(Some(&crouch()), true);
     assert_eq!(it.supervisor.reason(), Some(StopReason::Overrun));
 }
 
+/// A robot whose knee and body move, and whose readings say so.
+fn moving(tick: u32) -> RobotState<f64, 2> {
+    let time = PERIOD * f64::from(tick);
+    let mut state = crouch();
+    state.joint_angles[0][3] += 0.3 * time;
+    state.joint_rates[0][3] = 0.3;
+    state.position.x += 0.05 * time;
+    state.velocity.linear.x = 0.05;
+    state
+}
+
+/// Ticks until a loop stops under measurements that `measure` makes, and why.
+fn until_stopped(
+    mut measure: impl FnMut(u32) -> Option<RobotState<f64, 2>>,
+) -> Option<(u32, StopReason)> {
+    let mut it = Loop::<f64>::new();
+    it.supervisor.arm();
+    (0..200).find_map(|tick| {
+        it.step(measure(tick).as_ref(), false);
+        it.supervisor.reason().map(|reason| (tick, reason))
+    })
+}
+
+/// An encoder that stands still while its joint moves, or that moves alone, is found out at its fifth tick, through
+/// a tick that is bridged too.
+#[test]
+fn angles_must_follow_rates() {
+    assert_eq!(until_stopped(|tick| Some(moving(tick))), None);
+    let frozen = |tick| {
+        let mut state = moving(tick);
+        state.joint_angles[0][3] = moving(tick.min(50)).joint_angles[0][3];
+        state
+    };
+    let expected = StopReason::Frozen { leg: 0, joint: 3 };
+    assert_eq!(until_stopped(|tick| Some(frozen(tick))), Some((55, expected)));
+    assert_eq!(until_stopped(|tick| (tick != 52).then(|| frozen(tick))), Some((56, expected)));
+    let still = |tick| {
+        let mut state = moving(tick);
+        state.joint_rates[0][3] = if tick < 50 { 0.3 } else { 0.0 };
+        state
+    };
+    // At the first tick the step of the rate explains half of it.
+    assert_eq!(until_stopped(|tick| Some(still(tick))), Some((55, expected)));
+}
+
+/// A whole measurement that comes again and again while joints move is none.
+#[test]
+fn a_measurement_that_repeats_is_none() {
+    let stop = until_stopped(|tick| Some(moving(tick.min(50))));
+    assert_eq!(stop, Some((52, StopReason::Stale)));
+    // A robot at rest repeats its measurements.
+    assert_eq!(until_stopped(|_| Some(crouch())), None);
+}
+
+/// One measurement lost now and then is bridged; every second, or every tenth, is not.
+#[test]
+fn measurements_lost_too_often_stop() {
+    let every = |n: u32| until_stopped(|tick| (tick % n != n - 1).then(|| moving(tick)));
+    assert_eq!(every(2), Some((5, StopReason::Stale)));
+    assert_eq!(every(10).map(|(_, reason)| reason), Some(StopReason::Stale));
+    assert_eq!(every(11), None);
+}
+
+/// A reading that may be an impact moves torques by a step at most, and not for long.
+#[test]
+fn doubtful_measurements_act_a_little() {
+    let mut it = Loop::<f64>::armed();
+    let before = it.step(Some(&crouch()), false).joint_torques;
+    let mut doubtful = crouch();
+    doubtful.velocity.linear.z = 1.5;
+    let step = it.limits.thresholds.torque_step;
+    let after = it.step(Some(&doubtful), false);
+    let asked = after.command.expect("a tick's answer").joint_torques;
+    let pairs = after.joint_torques.iter().flatten().zip(before.iter().flatten());
+    for ((now, before), asked) in pairs.zip(asked.iter().flatten()) {
+        assert!((now - (before + (asked - before).clamp(-step, step))).abs() < 1e-12);
+    }
+    assert!((asked[0][3] - before[0][3]).abs() > 2.0 * step, "or this is no test");
+    // It is gone: a doubtful step back, and all is as before.
+    it.step(Some(&crouch()), false);
+    assert_eq!(it.step(Some(&crouch()), false).joint_torques, before);
+    // It does not go.
+    let stop = until_stopped(|tick| {
+        let mut state = crouch();
+        state.velocity.linear.z = if tick < 50 { 0.0 } else { 0.3 };
+        Some(state)
+    });
+    let ticks = u32::from(it.limits.thresholds.doubtful_ticks);
+    assert_eq!(stop, Some((50 + ticks, StopReason::Doubtful)));
+}
+
+/// Motors brake, and never drive; the joint that is blamed is limp.
+#[test]
+fn a_stop_brakes() {
+    let mut it = Loop::<f64>::armed();
+    it.step(Some(&crouch()), true);
+    let mut rng = Pcg64Mcg::seed_from_u64(3);
+    let mut state = crouch();
+    let mut braked = 0;
+    for _ in 0..300 {
+        for leg in 0..2 {
+            for joint in 0..6 {
+                let rate = rng.random_range(-3.0..3.0);
+                state.joint_rates[leg][joint] = rate;
+                state.joint_angles[leg][joint] += PERIOD * rate;
+            }
+        }
+        // Of a joint whose two readings contradict each other nothing is believed.
+        state.joint_rates[1][4] *= -1.0;
+        let torques = it.step(Some(&state), false).joint_torques;
+        for (torque, rate) in torques.iter().flatten().zip(state.joint_rates.iter().flatten()) {
+            assert!(torque * rate <= 0.0);
+            braked += u32::from(*torque != 0.0);
+        }
+        assert_eq!(torques[1][4], 0.0);
+    }
+    assert_eq!(braked, 300 * 11);
+
+    let mut it = Loop::<f64>::armed();
+    let mut bad = crouch();
+    bad.joint_angles[0][1] = f64::NAN;
+    it.step(Some(&bad), false);
+    assert_eq!(it.supervisor.reason(), Some(StopReason::Encoder { leg: 0, joint: 1 }));
+    for tick in 0..10 {
+        let mut state = moving(tick);
+        state.joint_rates[0][1] = 1.0;
+        state.joint_angles[0][1] += PERIOD * f64::from(tick);
+        let torques = it.step(Some(&state), false).joint_torques;
+        assert_eq!(torques[0][1], 0.0);
+        assert!(tick == 0 || torques[0][3] < 0.0);
+    }
+}
+
+/// The least inertias of the biped are that, over postures at random, and damping that is held over a tick takes
+/// no more than all of a motion: no eigenvalue of `h M⁻¹ D` is above one.
+#[test]
+fn the_stop_of_the_biped_is_stable() {
+    let mut rng = Pcg64Mcg::seed_from_u64(1);
+    let damping = biped::LIMITS.damping[0];
+    let (mut least, mut largest) = ([f64::INFINITY; 6], 0.0_f64);
+    for _ in 0..2000 {
+        let mut q = [0.0; 19];
+        q[3] = 1.0;
+        for leg in q[7..].chunks_mut(6) {
+            let ranges = [0.6, 1.8, 0.7, 2.4, 0.5, 1.2];
+            for (angle, range) in leg.iter_mut().zip(ranges) {
+                *angle = rng.random_range(-range..range);
+            }
+        }
+        let rows = mass_matrix(&biped::TREE, &joint_poses(&biped::TREE, &q).expect("poses"));
+        let inverse =
+            DMatrix::from_fn(18, 18, |i, j| rows[i][j]).try_inverse().expect("positive definite");
+        for joint in 0..12 {
+            let inertia = 1.0 / inverse[(6 + joint, 6 + joint)];
+            least[joint % 6] = least[joint % 6].min(inertia);
+        }
+        // d h, as the supervisor takes it for a period so long that all are at their bound.
+        let held = |joint: usize| 0.5 * damping[joint % 6].inertia;
+        let symmetric =
+            DMatrix::from_fn(12, 12, |i, j| (held(i) * held(j)).sqrt() * inverse[(6 + i, 6 + j)]);
+        largest = largest.max(symmetric.symmetric_eigenvalues().max());
+    }
+    println!("least inertias {least:?} kg·m²; largest eigenvalue {largest:.3}");
+    for (least, damping) in least.iter().zip(damping) {
+        let ratio = damping.inertia / least;
+        assert!((0.9..1.03).contains(&ratio), "{} against {least}", damping.inertia);
+    }
+    assert!(largest <= 1.0, "{largest}");
+}
+
+/// What cannot be a limit is refused by leg, joint and field; a message's limits only tighten.
+#[test]
+fn limits_are_checked() {
+    let refused = |change: fn(&mut SafetyLimits<f64, 2>)| {
+        let mut limits = biped::LIMITS;
+        change(&mut limits);
+        Supervisor::new(limits, PERIOD).expect_err("no limits")
+    };
+    let (out, nan) = (LimitFault::OutOfRange, LimitFault::NotFinite);
+    for (change, joint, field, fault) in [
+        (
+            (|l| l.joints[1][3].torque = f64::NAN) as fn(&mut SafetyLimits<f64, 2>),
+            Some((1, 3)),
+            LimitField::Torque,
+            nan,
+        ),
+        (|l| l.joints[0][0].torque = -1.0, Some((0, 0)), LimitField::Torque, out),
+        (|l| l.joints[1][5].angle = [1.0, 1.0], Some((1, 5)), LimitField::Angle, out),
+        (|l| l.joints[1][5].angle[1] = f64::INFINITY, Some((1, 5)), LimitField::Angle, nan),
+        (|l| l.joints[0][2].rate = 0.0, Some((0, 2)), LimitField::Rate, out),
+        (|l| l.damping[0][2].damping = -1.0, Some((0, 2)), LimitField::Damping, out),
+        (|l| l.damping[1][2].inertia = f64::NAN, Some((1, 2)), LimitField::Inertia, nan),
+        (|l| l.stop_s = 0.0, None, LimitField::Stop, out),
+        (|l| l.thresholds.least_upright = 1.0, None, LimitField::Upright, out),
+        (|l| l.thresholds.gross = 0.5, None, LimitField::Gross, out),
+        (|l| l.thresholds.drop = f64::NAN, None, LimitField::Drop, nan),
+        (|l| l.thresholds.recovery_ticks = 0, None, LimitField::Recovery, out),
+    ] {
+        let error = refused(change);
+        assert_eq!(error, LimitError { joint, field, fault });
+        assert!(error.to_string().contains(&field.to_string()));
+    }
+    for period in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(Supervisor::new(biped::LIMITS, period).is_err());
+    }
+
+    let own = biped::LIMITS;
+    assert_eq!(own.allows(&own.joints, &own.thresholds), Ok(()));
+    let (mut joints, mut thresholds) = (own.joints, own.thresholds);
+    joints[1][3].torque = 100.0;
+    joints[0][1].angle = [-1.0, 1.0];
+    thresholds.drop = 0.05;
+    thresholds.least_upright = 0.9;
+    let mut supervisor = Supervisor::new(own, PERIOD).expect("limits");
+    supervisor.tighten(&own, &joints, &thresholds, 2.0 * PERIOD).expect("tighter");
+    let tight = *supervisor.limits();
+    assert_eq!((tight.joints, tight.thresholds, tight.damping), (joints, thresholds, own.damping));
+    assert!(supervisor.tighten(&own, &joints, &thresholds, f64::NAN).is_err());
+    // From what was tightened the robot's own limits lead back.
+    supervisor.tighten(&own, &own.joints, &own.thresholds, PERIOD).expect("its own");
+    assert_eq!(*supervisor.limits(), own);
+    let widens = |joint, field| Err(LimitError { joint, field, fault: LimitFault::Widens });
+    joints[1][3].torque = 400.1;
+    assert_eq!(own.allows(&joints, &thresholds), widens(Some((1, 3)), LimitField::Torque));
+    joints[1][3].torque = 400.0;
+    joints[0][1].angle = [-1.0, 3.3];
+    assert_eq!(own.allows(&joints, &thresholds), widens(Some((0, 1)), LimitField::Angle));
+    joints[0][1].angle = [-1.0, 1.0];
+    thresholds.least_upright = 0.8;
+    assert_eq!(own.allows(&joints, &thresholds), widens(None, LimitField::Upright));
+    thresholds = own.thresholds;
+    thresholds.bridged_ticks = 2;
+    assert_eq!(own.allows(&joints, &thresholds), widens(None, LimitField::Bridged));
+    thresholds = own.thresholds;
+    thresholds.recovery_ticks = 9;
+    assert_eq!(own.allows(&joints, &thresholds), widens(None, LimitField::Recovery));
+}
+
 /// Torques beyond the motors' are cut, and counted, and the sign is kept.
 #[test]
 fn large_torques_are_cut() {
-    let mut it = Loop::new(&ROBOT);
+    let mut it = Loop::<f64>::new();
     it.reference.position.z = 30.0;
     it.supervisor.arm();
     let out = it.step(Some(&crouch()), false);
     let asked = out.command.expect("a tick's answer").joint_torques;
     let mut cut = 0;
     for ((sent, asked), limit) in
-        out.joint_torques[0].iter().zip(asked[0]).zip(it.limits.joint_torque)
+        out.joint_torques[0].iter().zip(asked[0]).zip(it.limits.joints[0].map(|joint| joint.torque))
     {
         if asked.abs() > limit {
             assert_eq!(*sent, limit.copysign(asked));
@@ -197,4 +455,30 @@ fn large_torques_are_cut() {
         }
     }
     assert!(cut > 0 && it.supervisor.cut_torques() >= cut);
+    // For three ticks a motor may be at its limit.
+    it.step(Some(&crouch()), false);
+    assert_eq!(it.supervisor.mode(), Mode::Active);
+    it.step(Some(&crouch()), false);
+    assert!(matches!(it.supervisor.reason(), Some(StopReason::Saturated { .. })));
+}
+
+/// What one supervisor remembers lets another go on to the same bits, wherever it stops.
+#[test]
+fn memory_is_all_there_is() {
+    let mut one = Loop::<f64>::armed();
+    for tick in 0..150 {
+        let mut other = Loop::<f64>::new();
+        other.supervisor.remember(*one.supervisor.memory());
+        let mut state = moving(tick);
+        match tick {
+            20 | 60 => state.velocity.linear.z = 0.4,
+            100.. => state.joint_angles[0][3] = 1.0,
+            _ => {}
+        }
+        let measured = (tick % 25 != 9).then_some(&state);
+        let (a, b) = (one.step(measured, false), other.step(measured, false));
+        assert_eq!(a.joint_torques, b.joint_torques);
+        assert_eq!(one.supervisor.memory(), other.supervisor.memory());
+    }
+    assert!(one.supervisor.reason().is_some());
 }

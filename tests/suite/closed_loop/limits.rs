@@ -3,13 +3,13 @@
 use std::cell::RefCell;
 use std::path::PathBuf;
 use std::sync::Mutex;
-use surefoot::balance::SafetyLimits;
+use surefoot::model::robots::biped;
 use surefoot_sim::closed_loop::{Failure, Run};
 use surefoot_sim::contact::ContactState;
 use surefoot_sim::scene::{Outline, Push, Scene, load};
 use surefoot_sim::stability::loop_limits::{
-    Cell, Criterion, Ending, Footing, Found, Ladder, Manner, Quantity, Store, Survey, Tolerance,
-    Trial, play, search,
+    Cell, Criterion, Ending, Footing, Found, Ladder, Loop, Manner, Quantity, Store, Survey,
+    Tolerance, Trial, play, search,
 };
 
 /// Searches for a limit of a rule; with all values that were tried.
@@ -87,7 +87,8 @@ fn experiment_1() -> Scene {
 }
 
 fn trial(scene: &Scene, quantity: Quantity, outline: Outline) -> Trial<'_> {
-    Trial { scene, quantity, footing: Footing::Sole(outline), criterion: Criterion::default() }
+    let (footing, control) = (Footing::Sole(outline), Loop::Bare);
+    Trial { scene, quantity, footing, control, criterion: Criterion::default() }
 }
 
 /// Limits of real runs, found with a coarse tolerance: three hundredths on either side the run works, and
@@ -150,7 +151,7 @@ fn quantities_are_set_in_the_scene() {
 /// How a scene fails; its record as well.
 fn failed(scene: &Scene) -> (Option<Manner>, Run) {
     scene.check().expect("a scene");
-    let (run, fault) = play(scene);
+    let (run, fault) = play(scene, Loop::Bare);
     (Ending { scene, run: &run, fault }.manner(&Criterion::default()), run)
 }
 
@@ -201,7 +202,7 @@ fn manners_of_constructed_records() {
     // The same record, of motors that give no more than it shows at one joint in its last half second.
     let mut weak = scene.clone();
     let knee = 3;
-    let mut limits = SafetyLimits::<f64>::biped().joint_torque;
+    let mut limits = biped::LIMITS.joints[0].map(|joint| joint.torque);
     limits[knee] = 20.0;
     weak.acting.torque_limits_nm = Some(limits);
     let share_cut = |share: f64| {
@@ -246,7 +247,8 @@ fn a_survey_is_taken_up_again() {
     let scene = experiment_1();
     let quantities = [Quantity::Friction, Quantity::GainScale];
     let criterion = Criterion::default();
-    let survey = Survey { scene: &scene, quantities: &quantities, criterion };
+    let loops = [Loop::Supervised];
+    let survey = Survey { scene: &scene, quantities: &quantities, loops: &loops, criterion };
     let path = temporary("resume");
     let store = Store::new(&path, &scene, &criterion, b"this program");
     store.forget().expect("nothing there");

@@ -1,9 +1,11 @@
 //! The controller in the loop with a plant.
 
 mod acting;
+mod bad_ticks;
 mod error_dynamics;
 mod experiment_1;
 mod experiment_2;
+mod falls;
 mod hardware;
 mod limits;
 mod parsimony;

@@ -5,6 +5,7 @@
 //! 5 (shank), 6 (ankle), 7 (foot); right leg 8 to 13 likewise. Joint axes, all positive: x, y, z
 //! (hip), y (knee), x, y (ankle).
 
+use crate::balance::{JointDamping, JointLimits, SafetyLimits, Thresholds};
 use crate::model::compile_time::{cosine, sine};
 use crate::model::{Link, Tree};
 use nalgebra::Vector3;
@@ -99,3 +100,66 @@ impl SoleOutline {
         [corner(heel, -w), corner(heel, w), corner(toe, -w), corner(toe, w)]
     }
 }
+
+/// What its supervisor allows. The dissertation prints no limits of motors or sensors; these are ours:
+/// torques twice the largest of Experiment 1 at the knee. Thresholds stand well above what both
+/// experiments show on their feet, at 500 ticks a second and steps of the simulator from 20 µs to 2 ms,
+/// and well below what faults and falls do.
+pub const LIMITS: SafetyLimits<f64, 2> = SafetyLimits {
+    joints: [JOINT_LIMITS; 2],
+    damping: [JOINT_DAMPING; 2],
+    stop_s: 1.0,
+    thresholds: Thresholds {
+        // A fifth of a count of a 12-bit encoder.
+        angle_noise: 3e-4,
+        // All rates off by this at once leap a torque by 15 N·m. Impacts step a rate by 23 rad/s, and
+        // leave residuals of 14 mrad at most, for six ticks in a row.
+        rate_step: 0.8,
+        doubtful_ticks: 12,
+        // The block of Experiment 2 leaves residuals of 0.02 mm and 0.1 mrad, which are steps of
+        // 0.02 m/s and 0.1 rad/s.
+        velocity_step: 0.05,
+        angular_velocity_step: 0.5,
+        // 44 mrad of a joint, 2 mm and 20 mrad of the body.
+        gross: 40.0,
+        frozen_angle: 5e-4,
+        torque_step: 12.0,
+        bridged_ticks: 1,
+        recovery_ticks: 10,
+        // 35°, of which the experiments reach 17°.
+        least_upright: 0.819,
+        // The experiments sink by 3 mm, and 32 mm with prediction.
+        drop: 0.12,
+        look_ahead_s: 0.1,
+        // Three quarters of gravity; the experiments have 8.2 m/s² for a tick.
+        free_fall: 7.4,
+        free_fall_s: 0.01,
+        // No motor is at its limit in the experiments.
+        saturation_s: 6e-3,
+    },
+};
+
+const JOINT_LIMITS: [JointLimits<f64>; 6] = [
+    joint_limits(200.0),
+    joint_limits(300.0),
+    joint_limits(100.0),
+    joint_limits(400.0),
+    joint_limits(200.0),
+    joint_limits(200.0),
+];
+
+/// Encoders read half a turn either way; rates of impacts reach 25 rad/s.
+const fn joint_limits(torque: f64) -> JointLimits<f64> {
+    JointLimits { torque, angle: [-3.2, 3.2], rate: 100.0 }
+}
+
+/// The least inertia that each joint turns over all postures, everything else free: near the postures at
+/// which hip x and hip z are parallel, they turn no more than the small bodies between them.
+const JOINT_DAMPING: [JointDamping<f64>; 6] = [
+    JointDamping { damping: 30.0, inertia: 5.5e-4 },
+    JointDamping { damping: 30.0, inertia: 0.28 },
+    JointDamping { damping: 30.0, inertia: 5.5e-4 },
+    JointDamping { damping: 30.0, inertia: 0.117 },
+    JointDamping { damping: 30.0, inertia: 2.2e-3 },
+    JointDamping { damping: 30.0, inertia: 7.5e-3 },
+];

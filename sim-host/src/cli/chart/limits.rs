@@ -3,7 +3,7 @@
 use super::{Made, Options, limits_table as table, this_program};
 use crate::report::plain_chapter;
 use crate::scene::{AnyScene, Scene, open};
-use crate::stability::loop_limits::{Cell, Criterion, Quantity, Store, Survey};
+use crate::stability::loop_limits::{Cell, Criterion, Loop, Quantity, Store, Survey};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,8 @@ pub(super) fn chart(names: &[&str], options: &Options) -> Result<Made, String> {
             [] => &Quantity::ALL,
             only => only,
         };
-        let survey = Survey { scene: &scene, quantities, criterion: Criterion::default() };
+        let criterion = Criterion::default();
+        let survey = Survey { scene: &scene, quantities, loops: &Loop::BOTH, criterion };
         let cells = find(&survey, options)?;
         let written = write_files(&options.out, &survey, &cells)?;
         text += &table::text(&survey, &cells);

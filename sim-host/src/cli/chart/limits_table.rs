@@ -2,20 +2,21 @@
 
 use crate::report::Table;
 use crate::stability::loop_limits::{
-    ACCELEROMETER_NOISE, Cell, Footing, Found, GYROSCOPE_NOISE, HALVINGS, Manner, Quantity,
+    ACCELEROMETER_NOISE, Cell, Footing, Found, GYROSCOPE_NOISE, HALVINGS, Loop, Manner, Quantity,
     RUNAWAY, Survey, Tolerance,
 };
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
-use surefoot::balance::SafetyLimits;
+use surefoot::model::robots::biped;
 
 /// A row of the CSV file: one limit.
 #[derive(Serialize)]
 struct Row {
     quantity: Quantity,
     footing: String,
+    control: Loop,
     unit: &'static str,
     in_scene: Option<f64>,
     kind: &'static str,
@@ -41,7 +42,8 @@ pub(super) fn text(survey: &Survey, cells: &[Cell]) -> String {
         out,
         "Limits of {}. A value works if {}.\n\nFrom the easy end of its range each is tried outward until \
          the first that fails, and bisected before that;\nwhether something beyond works again is not \
-         asked. Halving the step changes a limit by less than its tolerance, but for ~.\n",
+         asked. Halving the step changes a limit by less than its tolerance, but for ~. The loop has its \
+         supervisor;\nbare: without.\n",
         scene.name,
         survey.criterion.words(),
     );
@@ -50,11 +52,13 @@ pub(super) fn text(survey: &Survey, cells: &[Cell]) -> String {
     for footing in columns {
         let _ = write!(
             out,
-            "  │{:>11}  {:<17}{:>9}{:>11}",
+            "  │{:>11}  {:<17}{:>9}{:>11}{:>11}  {:<17}",
             footing.words(),
             "fails by",
             "step",
-            "half step"
+            "half step",
+            "bare",
+            "fails by"
         );
     }
     out.push('\n');
@@ -75,14 +79,17 @@ pub(super) fn text(survey: &Survey, cells: &[Cell]) -> String {
                 continue;
             };
             let mark = if cell.agrees() { "" } else { "~" };
-            let _ = write!(
-                out,
-                "  │{:>11}  {:<17}{:>9}{:>11}",
-                format!("{mark}{}", found(*quantity, &limit.found)),
-                limit.found.manner().map_or("–", Manner::words),
-                format!("{} ms", 1e3 * limit.longest_step_s),
-                found(*quantity, &half.found),
-            );
+            let shown = format!("{mark}{}", found(*quantity, &limit.found));
+            let words = limit.found.manner().map_or("–", Manner::words);
+            let _ = match cell.control {
+                Loop::Supervised => write!(
+                    out,
+                    "  │{shown:>11}  {words:<17}{:>9}{:>11}",
+                    format!("{} ms", 1e3 * limit.longest_step_s),
+                    found(*quantity, &half.found),
+                ),
+                Loop::Bare => write!(out, "{shown:>11}  {words:<17}"),
+            };
             note(&mut notes, cell);
         }
         out.push('\n');
@@ -95,7 +102,8 @@ pub(super) fn text(survey: &Survey, cells: &[Cell]) -> String {
 /// The limits on a scene's own soles in a line.
 pub(super) fn in_a_line(survey: &Survey, cells: &[Cell]) -> String {
     let own = Footing::of(survey.scene).first();
-    let limits = cells.iter().filter(|cell| Some(&cell.footing) == own).filter_map(|cell| {
+    let own = |cell: &&Cell| Some(&cell.footing) == own && cell.control == Loop::Supervised;
+    let limits = cells.iter().filter(own).filter_map(|cell| {
         let limit = found(cell.quantity, &cell.limit()?.found);
         Some(format!("{} {limit}", cell.quantity.words()))
     });
@@ -107,7 +115,9 @@ pub(super) fn for_page(survey: &Survey, cells: &[Cell], files: Vec<String>) -> T
     let footings = Footing::of(survey.scene);
     let mut head = vec![String::new(), "scene".to_owned()];
     for footing in footings {
-        head.extend([footing.words(), "fails by".to_owned()]);
+        let words = ["fails by", "bare", "fails by"].map(str::to_owned);
+        head.push(footing.words());
+        head.extend(words);
     }
     let row = |quantity: &Quantity| {
         let limits: Vec<_> = cells
@@ -164,7 +174,7 @@ fn references(survey: &Survey, cells: &[Cell]) -> String {
         );
     }
     if has(Quantity::TorqueShare) {
-        let limits = SafetyLimits::<f64>::biped().joint_torque;
+        let limits = biped::LIMITS.joints[0].map(|joint| joint.torque);
         let _ = writeln!(out, "Torque limits: of {limits:?} N·m, hip to foot.");
     }
     out
@@ -172,7 +182,11 @@ fn references(survey: &Survey, cells: &[Cell]) -> String {
 
 /// What a cell's figures do not say.
 fn note(out: &mut String, cell: &Cell) {
-    let (quantity, place) = (cell.quantity, cell.footing.words());
+    let quantity = cell.quantity;
+    let place = match cell.control {
+        Loop::Supervised => cell.footing.words(),
+        Loop::Bare => format!("{}, bare", cell.footing.words()),
+    };
     let Some(limit) = cell.limit() else { return };
     let _ = match limit.found {
         Found::Limit { .. } => Ok(()),
@@ -239,6 +253,7 @@ fn rows(survey: &Survey, cells: &[Cell]) -> Vec<Row> {
         Some(Row {
             quantity: cell.quantity,
             footing: cell.footing.words(),
+            control: cell.control,
             unit: cell.quantity.unit(),
             in_scene: cell.quantity.of(survey.scene),
             kind,

@@ -39,7 +39,7 @@ fn color(failure: Failure) -> (u8, u8, u8) {
             Manner::Tip => BLUE,
             Manner::Runaway => VERMILION,
             Manner::Collapse => GREEN,
-            Manner::ControllerFault => ORANGE,
+            Manner::ControllerFault | Manner::Measurement => ORANGE,
             Manner::SingularLeg => PURPLE,
             Manner::TorqueLimit | Manner::NotReachable => GREY,
             Manner::StepFailure => BLACK,

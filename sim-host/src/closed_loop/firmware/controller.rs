@@ -4,7 +4,8 @@ use super::{LinkError, Target};
 use crate::closed_loop::{Commanded, ControlFailure, Controller, Costs, measured};
 use crate::plant::PlantState;
 use crate::scene::{Scene, Workspace};
-use surefoot::balance::{Mode, SafetyLimits};
+use surefoot::balance::StopReason;
+use surefoot::model::robots::biped;
 use surefoot_link::{Counter, Pacing, Sensors, SetPoint, Settings, ToTarget, Torques};
 
 /// A target that balances a scene's plant, in lock step with it.
@@ -12,6 +13,7 @@ pub struct FirmwareController {
     target: Target,
     /// What each tick has cost, in the target's unit.
     costs: Vec<u32>,
+    stopped: Option<StopReason>,
 }
 
 impl FirmwareController {
@@ -24,7 +26,7 @@ impl FirmwareController {
         target.order("configure", &ToTarget::Configure(settings(scene)))?;
         target.order("set point", &ToTarget::SetPoint(set_point(scene)))?;
         target.order("arm", &ToTarget::Arm)?;
-        Ok(Self { target, costs: Vec::new() })
+        Ok(Self { target, costs: Vec::new(), stopped: None })
     }
 
     /// What each tick has cost, in the target's unit.
@@ -65,7 +67,8 @@ pub fn settings(scene: &Scene) -> Settings {
             Workspace::FixedFoot => None,
             Workspace::BigBase(factor) => Some(factor as f32),
         },
-        limits: SafetyLimits::biped(),
+        joint_limits: biped::LIMITS.to_f32().joints,
+        thresholds: biped::LIMITS.to_f32().thresholds,
     }
 }
 
@@ -78,6 +81,10 @@ pub fn set_point(scene: &Scene) -> SetPoint {
 }
 
 impl Controller for FirmwareController {
+    fn stopped(&self) -> Option<StopReason> {
+        self.stopped
+    }
+
     fn costs(&self) -> Option<Costs> {
         let identity = self.target.identity();
         let sum: f64 = self.costs.iter().map(|cost| f64::from(*cost)).sum();
@@ -95,11 +102,7 @@ impl Controller for FirmwareController {
 
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let torques = self.exchange(state)?;
-        if torques.mode != Mode::Active
-            && let Some(reason) = torques.reason
-        {
-            return Err(ControlFailure::Stopped(reason));
-        }
+        self.stopped = torques.reason;
         let [left, right] = torques.joint_torques;
         Ok(Commanded {
             torques: std::array::from_fn(|i| f64::from(if i < 6 { left[i] } else { right[i - 6] })),

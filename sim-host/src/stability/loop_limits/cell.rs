@@ -3,7 +3,7 @@
 use super::manner::Manner;
 use super::quantity::Quantity;
 use super::search::{Found, search};
-use super::trial::{Footing, Trial};
+use super::trial::{Footing, Loop, Trial};
 use crate::scene::SceneError;
 use serde::{Deserialize, Serialize};
 
@@ -26,6 +26,8 @@ pub struct Cell {
     pub quantity: Quantity,
     /// On which feet.
     pub footing: Footing,
+    /// In which loop.
+    pub control: Loop,
     /// Searches, each with half the step of the one before: two or more.
     pub levels: Vec<Level>,
 }
@@ -37,9 +39,9 @@ impl Cell {
     /// # Errors
     /// A [`SceneError`] for values that the scene's check refuses.
     pub fn find(trial: &Trial) -> Result<Option<Self>, SceneError> {
-        let (quantity, footing) = (trial.quantity, trial.footing);
+        let Trial { quantity, footing, control, .. } = *trial;
         let Some(ladder) = quantity.ladder(trial.scene) else { return Ok(None) };
-        let mut cell = Self { quantity, footing, levels: Vec::new() };
+        let mut cell = Self { quantity, footing, control, levels: Vec::new() };
         let mut longest_step_s = trial.scene.integrator.step_s;
         while cell.levels.len() <= HALVINGS && !cell.agrees() {
             let attempt = |value| trial.attempt(value, longest_step_s);

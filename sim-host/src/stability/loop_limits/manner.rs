@@ -11,6 +11,10 @@
 //! 4. the controller had a fault, or the simulator could not make a step;
 //! 5. none of these, but it is not at the set point when it should be.
 //!
+//! A supervised loop is lost when its supervisor stops it, in the manner that the reason names: motors at
+//! their limits are a runaway, or tip, as in 1; tilt and free fall tip, height collapses, and a measurement
+//! that is not believed is a manner of its own. What comes of the robot afterwards is not looked at.
+//!
 //! That is what became of it; why may lie before. The loss is at the end, but for 1 (before that torque)
 //! and 2; for these two it is no later than the last sample at which a sole was flat on the floor: what
 //! feet do in the air or on an edge is no reason any more. Over the [`BEFORE_S`] before it,
@@ -25,15 +29,15 @@
 //! several centimetres.
 
 use super::criterion::{Criterion, last_seconds};
-use crate::closed_loop::Run;
+use crate::closed_loop::{Run, Stop};
 use crate::contact::ContactState;
 use crate::record::{EventKind, Sample};
 use crate::scene::{Feet, Scene};
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
-use surefoot::balance::{Fault, SafetyLimits};
+use surefoot::balance::{Fault, StopReason};
 use surefoot::dynamics::{body_poses, joint_poses};
-use surefoot::model::robots::biped::{FEET, TREE};
+use surefoot::model::robots::biped::{FEET, LIMITS, TREE};
 use surefoot::spatial::Quaternion;
 
 /// How a run fails.
@@ -54,6 +58,8 @@ pub enum Manner {
     SingularLeg,
     /// The controller has another fault.
     ControllerFault,
+    /// The supervisor does not believe what is measured.
+    Measurement,
     /// The simulator cannot make a step.
     StepFailure,
     /// It is upright at the end, but not at rest at the set point.
@@ -62,7 +68,7 @@ pub enum Manner {
     NotReachable,
 }
 
-/// Torques of so many times [`SafetyLimits::biped`] are a runaway.
+/// Torques of so many times [`LIMITS`] are a runaway.
 pub const RUNAWAY: f64 = 3.0;
 /// Ticks that a runaway takes: soles that it tears off the floor are off it for no longer.
 pub const RUNAWAY_TICKS: usize = 5;
@@ -87,6 +93,7 @@ impl Manner {
             Self::TorqueLimit => "torque limit",
             Self::SingularLeg => "singular leg",
             Self::ControllerFault => "controller fault",
+            Self::Measurement => "measurement",
             Self::StepFailure => "simulator's step",
             Self::DoesNotSettle => "does not settle",
             Self::NotReachable => "not reachable",
@@ -120,6 +127,10 @@ impl Ending<'_> {
     fn loss(&self, criterion: &Criterion) -> Option<(Manner, usize)> {
         let samples = &self.run.samples;
         let failure = self.run.failure.as_ref();
+        if let Some(Stop { time_s, reason }) = self.run.stop {
+            let end = samples.partition_point(|sample| sample.time_s < time_s);
+            return Some(stopped(&samples[..end], reason));
+        }
         if failure.is_none() && criterion.is_settled(samples, &self.scene.set_point) {
             return None;
         }
@@ -180,11 +191,27 @@ impl Ending<'_> {
     }
 }
 
+/// The manner of a stop after these samples, and the number of those before the loss.
+fn stopped(samples: &[Sample], reason: StopReason) -> (Manner, usize) {
+    let flat = samples_to_last_flat_sole(samples);
+    match reason {
+        StopReason::Saturated { .. } if samples.len() - flat <= RUNAWAY_TICKS => {
+            (Manner::Runaway, flat)
+        }
+        StopReason::Saturated { .. } | StopReason::Tilt | StopReason::FreeFall => {
+            (Manner::Tip, flat)
+        }
+        StopReason::Height => (Manner::Collapse, samples.len()),
+        StopReason::Tick(Fault::SingularLeg { .. }) => (Manner::SingularLeg, samples.len()),
+        StopReason::Tick(_) => (Manner::ControllerFault, samples.len()),
+        _ => (Manner::Measurement, samples.len()),
+    }
+}
+
 /// Whether a torque is beyond all that a motor could give.
 pub(in crate::stability) fn runs_away(sample: &Sample) -> bool {
-    let limits = SafetyLimits::<f64>::biped().joint_torque;
-    let legs = sample.torques.iter().zip(limits.iter().cycle());
-    legs.into_iter().any(|(torque, limit)| !(torque.abs() <= RUNAWAY * limit))
+    let legs = sample.torques.iter().zip(LIMITS.joints.iter().flatten());
+    legs.into_iter().any(|(torque, joint)| !(torque.abs() <= RUNAWAY * joint.torque))
 }
 
 fn leans(sample: &Sample) -> bool {

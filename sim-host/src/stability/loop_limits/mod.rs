@@ -30,4 +30,4 @@ pub(super) use resume::fingerprint;
 pub use resume::{Store, StoreError};
 pub use search::{Found, Ladder, Tolerance, search};
 pub use survey::{Survey, SurveyError};
-pub use trial::{Footing, Trial, play};
+pub use trial::{Footing, Loop, Trial, play};

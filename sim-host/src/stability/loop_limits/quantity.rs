@@ -3,7 +3,7 @@
 use super::search::{Ladder, Tolerance};
 use crate::scene::{Feet, Scene};
 use serde::{Deserialize, Serialize};
-use surefoot::balance::SafetyLimits;
+use surefoot::model::robots::biped;
 
 /// A quantity of a scene that can be made harder until the loop fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, clap::ValueEnum)]
@@ -24,7 +24,7 @@ pub enum Quantity {
     /// Largest noise of the inertial sensors, in multiples of [`GYROSCOPE_NOISE`] and
     /// [`ACCELEROMETER_NOISE`]; encoders are exact.
     Noise,
-    /// Smallest torque limits, as a share of those of [`SafetyLimits::biped`].
+    /// Smallest torque limits, as a share of those of [`biped::LIMITS`].
     TorqueShare,
 }
 
@@ -149,8 +149,8 @@ impl Quantity {
                 scene.sensing.accelerometer_noise = value * ACCELEROMETER_NOISE;
             }
             Self::TorqueShare => {
-                let limits = SafetyLimits::<f64>::biped().joint_torque;
-                scene.acting.torque_limits_nm = Some(limits.map(|limit| limit * value));
+                let leg = biped::LIMITS.joints[0];
+                scene.acting.torque_limits_nm = Some(leg.map(|joint| joint.torque * value));
             }
         }
     }

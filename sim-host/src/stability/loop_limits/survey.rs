@@ -4,7 +4,7 @@ use super::cell::Cell;
 use super::criterion::Criterion;
 use super::quantity::Quantity;
 use super::resume::{Store, StoreError};
-use super::trial::{Footing, Trial};
+use super::trial::{Footing, Loop, Trial};
 use crate::scene::{Scene, SceneError};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -27,23 +27,28 @@ pub struct Survey<'a> {
     pub scene: &'a Scene,
     /// In which quantities; those that the scene has not are left out.
     pub quantities: &'a [Quantity],
+    /// In which loops.
+    pub loops: &'a [Loop],
     /// What works.
     pub criterion: Criterion,
 }
 
 impl Survey<'_> {
     /// The limits that are sought, in the order of the table.
-    pub fn work(&self) -> Vec<(Quantity, Footing)> {
+    pub fn work(&self) -> Vec<(Quantity, Footing, Loop)> {
         let footings = Footing::of(self.scene);
         self.quantities
             .iter()
             .filter(|quantity| quantity.ladder(self.scene).is_some())
             .flat_map(|quantity| footings.iter().map(|footing| (*quantity, *footing)))
+            .flat_map(|(quantity, footing)| {
+                self.loops.iter().map(move |control| (quantity, footing, *control))
+            })
             .collect()
     }
 
     /// Those of them that are not among `known`.
-    pub fn missing(&self, known: &[Cell]) -> Vec<(Quantity, Footing)> {
+    pub fn missing(&self, known: &[Cell]) -> Vec<(Quantity, Footing, Loop)> {
         let mut work = self.work();
         work.retain(|cell| position(known, cell).is_none());
         work
@@ -72,7 +77,7 @@ impl Survey<'_> {
             for _ in 0..workers.min(missing.len()) {
                 scope.spawn(|| {
                     while let Some(cell) = missing.get(next.fetch_add(1, Ordering::Relaxed)) {
-                        let found = self.cell(cell.0, cell.1);
+                        let found = self.cell(*cell);
                         let Ok(mut known) = known.lock() else { break };
                         let (cells, error) = &mut *known;
                         let kept = found.map_err(SurveyError::from).and_then(|found| {
@@ -100,12 +105,15 @@ impl Survey<'_> {
         }
     }
 
-    fn cell(&self, quantity: Quantity, footing: Footing) -> Result<Option<Cell>, SceneError> {
+    fn cell(
+        &self,
+        (quantity, footing, control): (Quantity, Footing, Loop),
+    ) -> Result<Option<Cell>, SceneError> {
         let Self { scene, criterion, .. } = *self;
-        Cell::find(&Trial { scene, quantity, footing, criterion })
+        Cell::find(&Trial { scene, quantity, footing, control, criterion })
     }
 }
 
-fn position(cells: &[Cell], wanted: &(Quantity, Footing)) -> Option<usize> {
-    cells.iter().position(|cell| (cell.quantity, cell.footing) == *wanted)
+fn position(cells: &[Cell], wanted: &(Quantity, Footing, Loop)) -> Option<usize> {
+    cells.iter().position(|cell| (cell.quantity, cell.footing, cell.control) == *wanted)
 }

@@ -3,11 +3,13 @@
 use super::criterion::Criterion;
 use super::manner::{Ending, Manner};
 use super::quantity::Quantity;
-use crate::closed_loop::{Commanded, ControlFailure, Controller, Run, Scalar, controller, run};
+use crate::closed_loop::{
+    Commanded, ControlFailure, Controller, Run, Scalar, bare_controller, controller, run,
+};
 use crate::plant::PlantState;
 use crate::scene::{Feet, Outline, Scene, SceneError};
 use serde::{Deserialize, Serialize};
-use surefoot::balance::Fault;
+use surefoot::balance::{Fault, StopReason};
 
 /// What the feet are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -43,6 +45,22 @@ impl Footing {
     }
 }
 
+/// Which loop is tried.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Loop {
+    /// The controller under its supervisor, as on the target.
+    #[default]
+    Supervised,
+    /// The controller alone.
+    Bare,
+}
+
+impl Loop {
+    /// In the order of the table.
+    pub const BOTH: [Self; 2] = [Self::Supervised, Self::Bare];
+}
+
 /// A scene whose limits are sought, in one quantity and on one footing.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial<'a> {
@@ -52,6 +70,8 @@ pub struct Trial<'a> {
     pub quantity: Quantity,
     /// On which feet.
     pub footing: Footing,
+    /// In which loop.
+    pub control: Loop,
     /// What works.
     pub criterion: Criterion,
 }
@@ -83,15 +103,19 @@ impl Trial<'_> {
             }
             Err(error) => return Err(error),
         }
-        let (run, fault) = play(&scene);
+        let (run, fault) = play(&scene, self.control);
         let ending = Ending { scene: &scene, run: &run, fault };
         Ok(ending.manner(&self.criterion))
     }
 }
 
 /// Runs a scene under the host's controller in double precision; with the fault that ended it.
-pub fn play(scene: &Scene) -> (Run, Option<Fault>) {
-    let mut watched = Watched { inner: controller(scene, Scalar::F64), fault: None };
+pub fn play(scene: &Scene, control: Loop) -> (Run, Option<Fault>) {
+    let inner = match control {
+        Loop::Supervised => controller(scene, Scalar::F64),
+        Loop::Bare => bare_controller(scene, Scalar::F64),
+    };
+    let mut watched = Watched { inner, fault: None };
     let run = run(scene, &mut watched, &mut |_| {});
     (run, watched.fault)
 }
@@ -109,5 +133,9 @@ impl Controller for Watched {
             self.fault = Some(*fault);
         }
         result
+    }
+
+    fn stopped(&self) -> Option<StopReason> {
+        self.inner.stopped()
     }
 }

@@ -15,7 +15,7 @@
 
 use crate::record::Sample;
 use crate::scene::{Feet, Outline, Scene};
-use crate::stability::loop_limits::{Criterion, play};
+use crate::stability::loop_limits::{Criterion, Loop, play};
 use nalgebra::Vector3;
 use surefoot::dynamics::{body_poses, joint_poses};
 use surefoot::model::robots::biped::{FEET, TREE};
@@ -44,7 +44,7 @@ pub fn should_stand(scene: &Scene, criterion: &Criterion) -> bool {
     let mut held = scene.clone();
     held.feet = Feet::Welded {};
     held.duration_s = held.duration_s.max(criterion.least_duration_s);
-    let (run, _) = play(&held);
+    let (run, _) = play(&held, Loop::Supervised);
     if run.failure.is_some() || !criterion.is_settled(&run.samples, &held.set_point) {
         return false;
     }

@@ -6,7 +6,7 @@
 
 use super::ground::FALLING_S;
 use crate::scene::{Feet, Scene};
-use crate::stability::loop_limits::{has_flat_sole, play, runs_away};
+use crate::stability::loop_limits::{Loop, has_flat_sole, play, runs_away};
 
 /// What is looked at: a fall's time after one fourth of it, in which all that drops has touched down.
 const BEGINNING_S: f64 = 1.25 * FALLING_S;
@@ -23,7 +23,7 @@ pub fn should_land(scene: &Scene) -> bool {
     }
     let mut beginning = scene.clone();
     beginning.duration_s = BEGINNING_S;
-    let (run, _) = play(&beginning);
+    let (run, _) = play(&beginning, Loop::Supervised);
     let last_s = 0.5 * BEGINNING_S;
     run.failure.is_none()
         && run.progress.is_none_or(|progress| progress.split_steps <= MOST_SPLITS)

@@ -8,7 +8,7 @@ use super::landing::should_land;
 use super::outcome::{Failure, Outcome};
 use crate::scene::{Scene, load};
 use crate::stability::TreeProblemError;
-use crate::stability::loop_limits::{Criterion, Footing, Manner, Quantity, Trial};
+use crate::stability::loop_limits::{Criterion, Footing, Loop, Manner, Quantity, Trial};
 
 /// Control rates, Hz.
 const RATES: [f64; 2] = [15.0, 1000.0];
@@ -58,7 +58,7 @@ const NOTE: &str = "A cell works if the robot stands within 10 mm and 1° of its
 fn trial(scene: &Scene, quantity: Quantity) -> Option<Trial<'_>> {
     let criterion = Criterion::default();
     let footing = *Footing::of(scene).first()?;
-    Some(Trial { scene, quantity, footing, criterion })
+    Some(Trial { scene, quantity, footing, control: Loop::Supervised, criterion })
 }
 
 /// Where on an axis of a quantity a scene's edge should be.

@@ -51,6 +51,7 @@ impl Failure {
             Self::Loop(Manner::TorqueLimit) => "Q",
             Self::Loop(Manner::SingularLeg) => "G",
             Self::Loop(Manner::ControllerFault) => "K",
+            Self::Loop(Manner::Measurement) => "M",
             Self::Loop(Manner::StepFailure) => "H",
             Self::Loop(Manner::DoesNotSettle) => "D",
             Self::Loop(Manner::NotReachable) => "X",
