@@ -10,7 +10,7 @@ const MOST_HALVINGS: u32 = 12;
 /// Residuals, relative to their terms, that count as a root once they fall no further.
 const TOLERANCE: f64 = 1e-10;
 /// Residuals that count as a root at once.
-const ROUND_OFF: f64 = 2e-15;
+pub(super) const ROUND_OFF: f64 = 2e-15;
 /// While residuals fall by this in an iteration, the elimination is used again.
 const FAST: f64 = 1e-2;
 /// Cosine of half the angle by which a body may turn in a step: beyond a quarter turn (2.51) folds.

@@ -102,6 +102,16 @@ impl Touch {
         Pair { linear, angular: cross(&self.end, &linear) }
     }
 
+    /// Largest force over a step, with what its springs' numbers are made of, as an impulse, N·s.
+    pub fn felt(&self, center: &Vector2<f64>, h: f64) -> f64 {
+        let force = self.force.force.abs().max();
+        if force == 0.0 {
+            return 0.0;
+        }
+        let at = center.abs().max() + self.begin.abs().max();
+        0.5 * h * self.weight * (force + self.force.slope.abs().max() * at)
+    }
+
     /// Lets go of the floor.
     pub fn forget(&mut self) {
         self.force.slope = Matrix3::zeros();
