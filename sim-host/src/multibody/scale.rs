@@ -18,6 +18,7 @@
 //! only the forces of floors do not, of which no more than round-off counts.
 
 use super::stepping::ROUND_OFF;
+use nalgebra::Vector3;
 
 /// Share of what is added up in the equations that counts as motion: with the tolerance of Newton's method, 1e-10,
 /// some 50 round-offs.
@@ -76,6 +77,12 @@ impl Composite {
         self.first += other.first;
         self.moment += other.moment;
     }
+}
+
+/// How far from the origin, m: not less than a vector's length, nor twice of it.
+#[inline]
+pub(super) fn away(p: &Vector3<f64>) -> f64 {
+    p.x.abs() + p.y.abs() + p.z.abs()
 }
 
 /// A moment of inertia about some axis as it is measured by, next to the largest one.

@@ -150,6 +150,19 @@ impl PlanarSimulation {
         make_step(self)
     }
 
+    /// The same motion from here on, in steps of another length, as of time zero.
+    #[must_use]
+    pub fn in_steps_of(&self, h: f64) -> Self {
+        let mut other = self.clone();
+        other.at.progress = Progress::new(h);
+        other
+    }
+
+    /// Whether motors are held.
+    pub fn is_driven(&self) -> bool {
+        self.torques.iter().any(|torque| *torque != 0.0)
+    }
+
     /// The system.
     pub fn system(&self) -> &System {
         &self.system

@@ -104,12 +104,8 @@ impl Touch {
 
     /// Largest force over a step, with what its springs' numbers are made of, as an impulse, N·s.
     pub fn felt(&self, center: &Vector2<f64>, h: f64) -> f64 {
-        let force = self.force.force.abs().max();
-        if force == 0.0 {
-            return 0.0;
-        }
-        let at = center.abs().max() + self.begin.abs().max();
-        0.5 * h * self.weight * (force + self.force.slope.abs().max() * at)
+        let away = center.x.abs() + center.y.abs() + self.begin.x.abs() + self.begin.y.abs();
+        0.5 * h * self.weight * self.force.terms(away)
     }
 
     /// Lets go of the floor.

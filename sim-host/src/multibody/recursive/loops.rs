@@ -9,8 +9,7 @@
 //! Cost: one solution of the tree for each constraint, and elimination of a small dense matrix.
 
 use super::super::BodyState;
-use super::super::closure::{Closing, Closure};
-use super::super::joint::Joint;
+use super::super::closure::Closure;
 use super::super::scale::beyond;
 use super::super::system::{System, WORLD};
 use super::closing_rows::{ClosingRow, Seen, closing_rows};
@@ -71,7 +70,7 @@ impl Loops {
             schur: vec![0.0; n * n],
             pivots: Vec::with_capacity(n),
             columns,
-            length: length(system),
+            length: system.length(),
             driven: Vec::with_capacity(2 * system.closing_motors().len()),
         }
     }
@@ -283,24 +282,6 @@ impl Row {
         outboard.map_or(0.0, |k| self.end[0].dot(&motions[k]))
             + inboard.map_or(0.0, |k| self.end[1].dot(&motions[k]))
     }
-}
-
-/// Of all arms of a system, and its bodies' radii of gyration, m.
-fn length(system: &System) -> f64 {
-    let size = |arm: [f64; 3]| Vector3::from(arm).norm();
-    // Where a joint is in the world is no arm.
-    let arms = |joint: &Joint, inboard: Option<usize>| {
-        size(joint.outboard) + inboard.map_or(0.0, |_| size(joint.inboard))
-    };
-    let in_tree = system.links().iter().map(|link| {
-        let radius = (Vector3::from(link.body.inertia).max() / link.body.mass).sqrt();
-        arms(&link.joint, link.inboard) + radius
-    });
-    let closing = system.closures().iter().map(|closure| match &closure.closing {
-        Closing::Joint(joint) => arms(joint, closure.inboard),
-        Closing::General(_) => 0.0,
-    });
-    in_tree.chain(closing).sum()
 }
 
 fn body_state(center: &Vector3<f64>, q: [f64; 4]) -> BodyState {

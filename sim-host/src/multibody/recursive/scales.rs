@@ -1,6 +1,6 @@
 //! What residuals in joint coordinates are measured by: see [`super::super::scale`].
 
-use super::super::scale::{Composite, Scale, not_too_thin};
+use super::super::scale::{Composite, Scale, away, not_too_thin};
 use super::super::system::System;
 use super::coordinates::Coordinates;
 use super::node::{Kind, Node};
@@ -149,14 +149,10 @@ impl Trial {
         let mut sum = 0.0;
         if step.system.ground().is_some() {
             for (node, place) in step.nodes.iter().zip(step.places) {
+                let center = away(&place.center);
                 for touch in &self.touches[node.sites.clone()] {
-                    let force = touch.force.force.abs().max();
-                    if force != 0.0 {
-                        let (slope, begin) =
-                            (touch.force.slope.abs().max(), touch.begin.abs().max());
-                        let at = place.center.abs().max() + begin;
-                        sum += (half * (force + slope * at)).powi(2) / node.mass;
-                    }
+                    let force = half * touch.force.terms(center + away(&touch.begin));
+                    sum += force * force / node.mass;
                 }
             }
         }

@@ -134,6 +134,22 @@ impl Simulation {
         self
     }
 
+    /// The same motion from here on, in steps of another length, as of time zero.
+    #[must_use]
+    pub fn in_steps_of(&self, h: f64) -> Self {
+        let mut other = self.clone();
+        other.at.progress = Progress::new(h);
+        other
+    }
+
+    /// Whether motors or wrenches are held.
+    pub fn is_driven(&self) -> bool {
+        let in_loops = || self.driven.iter().any(|driven| driven.torques != [0.0; 3]);
+        self.loads.torques.iter().any(|torque| *torque != 0.0)
+            || self.loads.wrenches.iter().any(|wrench| *wrench != Pair::ZERO)
+            || in_loops()
+    }
+
     /// The system.
     pub fn system(&self) -> &System {
         &self.system

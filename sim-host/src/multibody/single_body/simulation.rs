@@ -140,6 +140,14 @@ impl SingleBody {
         make_step(self)
     }
 
+    /// The same motion from here on, in steps of another length, as of time zero.
+    #[must_use]
+    pub fn in_steps_of(&self, h: f64) -> Self {
+        let mut other = self.clone();
+        other.at.progress = Progress::new(h);
+        other
+    }
+
     /// The system.
     pub fn system(&self) -> &System {
         &self.system

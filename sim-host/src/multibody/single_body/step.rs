@@ -11,7 +11,7 @@
 //! ```
 //! Without forces (1) says what `d` is, and (2) is left, in body axes, where `I` is diagonal.
 
-use super::super::scale::Scale;
+use super::super::scale::{Scale, away};
 use super::super::stepping::{LEAST_TURN, StepEquations};
 use super::checkpoint::Move;
 use super::simulation::SingleBody;
@@ -159,12 +159,13 @@ impl SingleBody {
 
     /// What the floor adds to (3) at a trial.
     fn felt(&self, h: f64) -> f64 {
-        let each = self.touches.iter().filter(|touch| touch.force.force.z != 0.0).map(|touch| {
-            let at = self.at.center.abs().max() + touch.begin.abs().max();
-            let force = touch.force.force.abs().max() + touch.force.slope.abs().max() * at;
-            (0.5 * h * force).powi(2) / self.mass
-        });
-        each.sum()
+        let center = away(&self.at.center);
+        let mut sum = 0.0;
+        for touch in &self.touches {
+            let force = touch.force.terms(center + away(&touch.begin));
+            sum += force * force;
+        }
+        sum * (0.25 * h * h / self.mass)
     }
 }
 
