@@ -1,6 +1,7 @@
 //! The controller in the loop with a plant.
 
 mod acting;
+mod causes;
 mod error_dynamics;
 mod experiment_1;
 mod experiment_2;
