@@ -196,6 +196,7 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "steps": run.steps,
         "outcome": run.outcome,
         "failure": run.failure,
+        "cause": run.cause,
         "wall_s": run.wall.as_secs_f64(),
         "wall_us_per_step": run.wall.as_secs_f64() * 1e6 / run.steps.max(1) as f64,
         "newton": run.progress.map(|progress| json!({

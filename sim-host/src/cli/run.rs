@@ -1,6 +1,6 @@
 //! `surefoot run`
 
-use super::controller::ControllerOptions;
+use super::controller::{ControllerOptions, Place};
 use super::model::ModelName;
 use super::report::{self, Report};
 use super::run_mechanism::run_mechanism;
@@ -179,9 +179,16 @@ fn simulate(scene: &Scene, options: &Options) -> Result<Run, String> {
     let mut controller = options.controller.controller(scene).map_err(|error| error.to_string())?;
     let from = options.saved(&scene.name)?;
     let bar = bar(&scene.name, scene.duration_s);
-    let run = closed_loop::run_from(scene, controller.as_mut(), from.as_ref(), &mut |time| {
+    let mut run = closed_loop::run_from(scene, controller.as_mut(), from.as_ref(), &mut |time| {
         bar.set_position((time * 1e3) as u64);
     });
+    // A run that goes on, and a controller that runs elsewhere, cannot be played again from the start.
+    if from.is_none() && options.controller.place == Place::Host {
+        closed_loop::explain(scene, &mut run, &mut |scene| {
+            let mut controller = options.controller.controller(scene).ok()?;
+            Some(closed_loop::run(scene, controller.as_mut(), &mut |_| {}))
+        });
+    }
     bar.finish_and_clear();
     Ok(run)
 }

@@ -5,7 +5,7 @@ use super::report::SHOWN_EVENTS;
 use super::run::{Options, bar, created};
 use super::{RUN_FAILED, bad_input, recommended, say};
 use crate::chart::write_mechanism_chart;
-use crate::mechanism::{ChosenModel, MechanismRun, run_model};
+use crate::mechanism::{Cause, ChosenModel, MechanismRun, run_model};
 use crate::record::write_mechanism_csv;
 use crate::scene::MechanismScene;
 use crate::stability::FailureKind;
@@ -89,11 +89,37 @@ fn write_files(
     Ok(vec![record, chart])
 }
 
-/// What to try after a failure.
+/// What to try after a failure: no step, and no method, that has not been tried.
 fn advice(run: &MechanismRun) -> String {
-    match run.forecast_s {
-        Some(step) => format!("a shorter step: {step:.2e} s is foretold to work"),
-        None => "a shorter step, or another method".to_owned(),
+    match run.cause {
+        Some(Cause::StepTooLong { step_s }) => {
+            format!("a shorter step: with {step_s:.3e} s the run completes (tried)")
+        }
+        Some(Cause::StepTooLongHere { step_s, from_s }) => format!(
+            "a shorter step: {step_s:.3e} s gets past this instant (tried from {from_s:.4} s on)"
+        ),
+        Some(Cause::NotTheStep { down_to_s, method: None }) => format!(
+            "not a shorter step: {down_to_s:.1e} s fails at the same instant (tried); look at the record there"
+        ),
+        Some(Cause::NotTheStep { down_to_s, method: Some(method) }) => format!(
+            "not a shorter step: {down_to_s:.1e} s fails at the same instant; --integrator {method} completes the \
+             run and keeps its energy (both tried)"
+        ),
+        Some(Cause::ShorterFailToo { down_to_s }) => format!(
+            "none is known: steps down to {down_to_s:.1e} s fail as well, at other times (tried)"
+        ),
+        Some(Cause::NoStepHelps) => "joints without this lock: no step gets past it".to_owned(),
+        Some(Cause::NotTried) | None => {
+            "perhaps a shorter step: none has been tried, as that would take too long".to_owned()
+        }
+    }
+}
+
+/// The longest step that is known to work: the one that was tried after a failure, or else what is predicted.
+fn step_that_works(run: &MechanismRun) -> Option<f64> {
+    match run.failure {
+        Some(_) => run.cause.and_then(|cause| cause.step_s()),
+        None => run.forecast_s,
     }
 }
 
@@ -149,8 +175,8 @@ fn lines(
     if run.events.len() > SHOWN_EVENTS {
         writeln!(out, "  and {} more events (--json lists all)", run.events.len() - SHOWN_EVENTS)?;
     }
-    if let Some(step) = run.forecast_s {
-        writeln!(out, "  longest step foretold: {step:.2e} s")?;
+    if let (None, Some(step)) = (run.failure, run.forecast_s) {
+        writeln!(out, "  longest step predicted: {step:.2e} s")?;
     }
     if let Some(first) = run.samples.first() {
         let [low, high] = run.energy_range;
@@ -159,6 +185,14 @@ fn lines(
             write!(out, ", slope {slope:.1e} J/s")?;
         }
         writeln!(out)?;
+        if run.has_lost_energy() {
+            let share = (high - low) / run.kinetic_max;
+            writeln!(
+                out,
+                "  WARNING: nothing here takes or gives energy, and it changes by {share:.1} of the largest kinetic \
+                 energy: this is another motion"
+            )?;
+        }
     }
     if let Some(drift) = run.momentum_drift() {
         writeln!(out, "  angular momentum: changes by {drift:.1e} of itself")?;
@@ -174,6 +208,7 @@ fn document(scene: &MechanismScene, reason: &str, run: &MechanismRun, files: &[P
             "time_s": failure.time_s,
             "where": failure.to_string(),
             "advice": advice(run),
+            "cause": run.cause,
         })
     });
     let [low, high] = run.energy_range;
@@ -196,11 +231,12 @@ fn document(scene: &MechanismScene, reason: &str, run: &MechanismRun, files: &[P
             "split_steps": run.progress.split_steps,
         },
         "unknowns_per_step": run.unknowns,
-        "forecast_step_s": run.forecast_s,
+        "forecast_step_s": step_that_works(run),
         "energy": {
             "initial_j": run.samples.first().map(|sample| sample.energy),
             "band_j": (high >= low).then_some(high - low),
             "slope_j_per_s": run.energy_slope(),
+            "is_lost": run.has_lost_energy(),
         },
         "momentum": { "linear_drift": Value::Null, "angular_drift": run.momentum_drift() },
         "constraint_max": run.constraint_max,

@@ -2,6 +2,7 @@
 
 mod acting;
 mod approximate;
+mod cause;
 mod controller;
 mod errors;
 mod estimate;
@@ -16,6 +17,7 @@ mod supervised;
 
 pub use acting::{CutTorques, Motors};
 pub use approximate::{ApproximateController, Approximation};
+pub use cause::{Cause, Remedy, Runaway, StepTrial, explain};
 pub use controller::{
     Commanded, ControlFailure, Controller, Costs, HostController, Scalar, approximate_controller,
     bare_controller, controller, measured,

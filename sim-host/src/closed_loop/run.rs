@@ -1,5 +1,6 @@
 //! One run of a scene.
 
+use super::cause::{Cause, step_failure, with_hardware};
 use super::controller::FAULT_ADVICE;
 use super::errors::set_point_errors;
 use super::events::Watch;
@@ -8,7 +9,7 @@ use super::plant::plant;
 use super::{Commanded, Controller, Costs, CutTorques, Failure, Motors, Outcome, Sensors};
 use crate::integrators::Progress;
 use crate::multibody::SystemError;
-use crate::plant::{Plant, PlantState, StepFailure};
+use crate::plant::{Plant, PlantState};
 use crate::record::{Event, Sample, SavedMotion, SavedRun};
 use crate::scene::{Scene, TorquesFrom};
 use nalgebra::Vector3;
@@ -23,6 +24,8 @@ pub struct Run {
     pub outcome: Outcome,
     /// Why, if it ended early.
     pub failure: Option<Failure>,
+    /// What is known of that.
+    pub cause: Option<Cause>,
     /// One sample a tick, and one at the end.
     pub samples: Vec<Sample>,
     /// What happened at the feet.
@@ -88,13 +91,17 @@ pub fn run_plant(
     let mut run = Run::new();
     let result = advance(scene, plant, controller, (from, progress), &mut run);
     // Whatever came of it later.
-    let result = run
-        .stop
-        .map_or(result, |stop| Err(stopped(stop)))
-        .map_err(|failure| with_step_limit(failure, scene, plant))
-        .map_err(|failure| with_hardware(failure, scene));
+    let result = run.stop.map_or(result, |stop| Err(stopped(stop)));
     run.progress = plant.progress().copied();
     run = ended(run, result);
+    if let Some(failure) = &mut run.failure {
+        let cause = Cause::of_record(&run.samples);
+        if failure.kind == "step" && cause != Cause::default() {
+            failure.advice = cause.advice();
+        }
+        with_hardware(failure, scene);
+        run.cause = Some(cause);
+    }
     run.wall = started.elapsed();
     run.costs = controller.costs();
     run
@@ -106,6 +113,7 @@ impl Run {
         Self {
             outcome: Outcome::Completed,
             failure: None,
+            cause: None,
             samples: Vec::new(),
             events: Vec::new(),
             steps: 0,
@@ -281,27 +289,6 @@ fn fallen(state: &PlantState, time: f64) -> Result<(), Failure> {
     })
 }
 
-/// A run that failed beyond the plant's limit of stability has failed for that.
-fn with_step_limit(mut failure: Failure, scene: &Scene, plant: &dyn Plant) -> Failure {
-    if let Some(limit) = plant.step_limit()
-        && scene.integrator.step_s > limit
-    {
-        failure.advice = format!(
-            "a step below {limit:.2e} s, this plant's limit of stability; or a softer floor"
-        );
-    }
-    failure
-}
-
-/// A run that failed with sensors and motors that are not ideal may have failed for them.
-fn with_hardware(mut failure: Failure, scene: &Scene) -> Failure {
-    let is_ideal = scene.sensing.is_ideal() && scene.acting.is_ideal();
-    if !is_ideal && failure.kind != "resume" {
-        failure.advice += "; or a shorter delay, better sensors, stronger motors, lower gains";
-    }
-    failure
-}
-
 /// What a stop says of a run.
 fn stopped(Stop { time_s, reason }: Stop) -> Failure {
     let advice = match reason {
@@ -334,16 +321,4 @@ fn other_hardware(time_s: f64) -> Failure {
         place: "the saved run had other sensors or another delay than this scene".into(),
         advice: "the tables `sensing` and `acting` that the run was saved with".into(),
     }
-}
-
-fn step_failure(time_s: f64, failure: StepFailure) -> Failure {
-    let advice = match failure {
-        StepFailure::Diverged { .. } | StepFailure::BlockDiverged { .. } => {
-            "a smaller step, or a softer floor"
-        }
-        StepFailure::SingularConstraints => "bend the knees",
-        StepFailure::Step(_) => "a smaller step",
-        StepFailure::Dynamics(_) | StepFailure::System(_) => "check the initial state",
-    };
-    Failure { kind: "step", time_s, place: failure.to_string(), advice: advice.into() }
 }

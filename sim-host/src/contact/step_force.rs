@@ -36,6 +36,20 @@ pub struct StepForce {
     pub point: ContactPoint,
 }
 
+impl StepForce {
+    /// What the force's numbers are made of, in absolute values, N: of a point that is this far from the origin, m.
+    /// Nothing where there is no force.
+    #[inline]
+    pub(crate) fn terms(&self, away: f64) -> f64 {
+        if self.force.z == 0.0 {
+            return 0.0;
+        }
+        let (f, k) = (&self.force, &self.slope);
+        let slope = k.m11.abs() + k.m22.abs() + k.m33.abs();
+        f.x.abs() + f.y.abs() + f.z.abs() + slope * away
+    }
+}
+
 /// `F_n` and its derivative with respect to the height at the end.
 fn normal_force(floor: &Floor, switching: Switching, z0: f64, way: f64, h: f64) -> (f64, f64) {
     let (k, b) = (floor.normal_stiffness, floor.normal_damping);

@@ -34,7 +34,8 @@ pub(super) fn constrained_drift<D: Scalar, const N: usize, const C: usize>(
 ) -> Result<Drift<D, N, C>, StepError> {
     let h = progress.h;
     let masses = system.masses();
-    let root = solve(gamma, &[scale::constraint(x); C], |gamma| {
+    let extents = scale::constraints(g, x, |i| p[i] * (h / masses[i]));
+    let root = solve(gamma, &extents, |gamma| {
         let momentum: [D; N] =
             std::array::from_fn(|i| (0..C).fold(p[i], |sum, c| sum + g[c][i] * gamma[c] * s));
         let end = std::array::from_fn(|i| x[i] + momentum[i] * (h / masses[i]));

@@ -29,7 +29,7 @@ pub struct EnergyMomentum<S, const N: usize, const C: usize, const U: usize, D =
     x: [D; N],
     p: [D; N],
     lambda: [D; C],
-    largest: Largest,
+    largest: Largest<N>,
     progress: Progress,
 }
 
@@ -42,9 +42,7 @@ where
         let masses = system.masses();
         let p = std::array::from_fn(|i| v_dot[i] * masses[i]);
         // The step's momenta are those of the midpoint rule.
-        let mut largest = Largest::new(&Midpoint(system.clone()).momenta(&x, v_dot, h), v_dot);
-        let lightest = masses.iter().copied().fold(f64::INFINITY, f64::min);
-        largest.speed = largest.speed.max(largest.momentum / lightest);
+        let largest = Largest::new(&Midpoint(system.clone()).momenta(&x, v_dot, h), v_dot);
         let lambda = [D::from(0.0); C];
         Self { system, x, p, lambda, largest, progress: Progress::new(h) }
     }
@@ -66,9 +64,12 @@ where
         let masses = system.masses();
         let rates = self.rates();
         let start = std::array::from_fn(|i| if i < N { rates[i] } else { lambda[i - N] });
-        let rate = largest.constraint_rate(x);
-        let scale = std::array::from_fn(|i| if i < N { largest.momentum } else { rate });
-        let extent = scale::constraint(x);
+        let (_, g_begin) = jacobian(x, |q| system.constraints(q));
+        let scale = std::array::from_fn(|i| match i.checked_sub(N) {
+            Some(c) => largest.rate(&g_begin[c]),
+            None => largest.momentum(i),
+        });
+        let extents = scale::constraints(&g_begin, x, |i| rates[i] * h);
         let (potential, constraints) = (system.potential(x), system.constraints(x));
         let root = solve(start, &scale, |unknowns: &[D; U]| {
             let d: [D; N] = std::array::from_fn(|i| unknowns[i]);
@@ -79,7 +80,7 @@ where
             let (_, mut g) = jacobian(&middle, |q| system.constraints(q));
             let mut change = [D::from(0.0); C];
             for c in 0..C {
-                let gap = Gap::new(&g[c], &d, h, [constraints[c], values[c]], extent);
+                let gap = Gap::new(&g[c], &d, h, [constraints[c], values[c]], extents[c]);
                 g[c] = gap.gradient(&g[c], &d);
                 change[c] = (0..N).map(|i| g[c][i] * d[i]).sum();
             }
@@ -90,7 +91,8 @@ where
                 augmented(system.potential(q), &lambda, system.constraints(q))
             });
             let begin = (0..C).fold(potential, |sum, c| sum + constraints[c] * lambda[c]);
-            let terms = potential.re().abs() + extent * scale::largest(&lambda);
+            let terms =
+                (0..C).fold(potential.re().abs(), |sum, c| sum + extents[c] * lambda[c].re().abs());
             let gap = Gap::new(&slope, &d, h, [begin, end], terms);
             let pull = gap.gradient(&slope, &d);
             let mut stiffness = gap.stiffness(&slope, &slope_end, &bend, &d, h);
@@ -120,11 +122,9 @@ where
         })
         .map_err(|failure| progress.error(failure))?;
         on_branch_of_short_steps(&root.at.jacobian).map_err(|failure| progress.error(failure))?;
-        for i in 0..N {
-            self.p[i] = root.x[i] * (2.0 * masses[i]) - self.p[i];
-        }
-        self.x = root.at.known;
-        self.largest.update(&self.p, &root.x[..N]);
+        let p = std::array::from_fn(|i| root.x[i] * (2.0 * masses[i]) - self.p[i]);
+        self.largest.update(|i| root.at.jacobian[i][i], [&self.p, &p], &root.x[..N]);
+        (self.x, self.p) = (root.at.known, p);
         self.lambda = std::array::from_fn(|c| root.x[N + c]);
         self.progress.solved(&root);
         self.progress.advance();

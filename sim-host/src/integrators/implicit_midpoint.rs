@@ -27,7 +27,7 @@ pub struct ImplicitMidpoint<S, const N: usize, const C: usize, const U: usize, D
     d: [D; N],
     p: [D; N],
     lambda: [D; C],
-    largest: Largest,
+    largest: Largest<N>,
     progress: Progress,
 }
 
@@ -54,8 +54,10 @@ where
         let Self { system, x, d, p, lambda, largest, progress } = &*self;
         let h = progress.h;
         let start = std::array::from_fn(|i| if i < N { d[i] } else { lambda[i - N] });
-        let extent = scale::constraint(x);
-        let scale = std::array::from_fn(|i| if i < N { largest.momentum } else { extent });
+        let (_, g) = jacobian(x, |v| system.constraints(v));
+        let extents = scale::constraints(&g, x, |i| d[i] * h);
+        let scale =
+            std::array::from_fn(|i| if i < N { largest.momentum(i) } else { extents[i - N] });
         let root = solve(start, &scale, |unknowns: &[D; U]| {
             let d: [D; N] = std::array::from_fn(|i| unknowns[i]);
             let lambda: [D; C] = std::array::from_fn(|c| unknowns[N + c]);
@@ -86,8 +88,9 @@ where
         on_branch_of_short_steps(&root.at.jacobian).map_err(|failure| progress.error(failure))?;
         self.d = std::array::from_fn(|i| root.x[i]);
         self.lambda = std::array::from_fn(|c| root.x[N + c]);
-        (self.x, self.p) = root.at.known;
-        self.largest.update(&self.p, &self.d);
+        let (y, end) = root.at.known;
+        self.largest.update(|i| root.at.jacobian[i][i], [&self.p, &end], &self.d);
+        (self.x, self.p) = (y, end);
         self.progress.solved(&root);
         self.progress.advance();
         Ok(())

@@ -21,8 +21,9 @@ where
     let (inertia, _) = system.inertia_and_force(&x, &v_dot);
     let (_, g) = jacobian(&x, |v| system.constraints(v));
     let mass = inertia.iter().fold(f64::MIN_POSITIVE, |m, row| m.max(scale::largest(row)));
-    let extent = scale::constraint(&x);
-    let scale = std::array::from_fn(|i| if i < N { mass * extent.sqrt() } else { extent });
+    let extents = scale::constraints(&g, &x, |_| D::from(0.0));
+    let length = scale::largest(&x);
+    let scale = std::array::from_fn(|i| if i < N { mass * length } else { extents[i - N] });
     let root = solve([D::from(0.0); U], &scale, |unknowns: &[D; U]| {
         let delta: [D; N] = std::array::from_fn(|i| unknowns[i]);
         let y: [D; N] = std::array::from_fn(|i| x[i] + delta[i]);

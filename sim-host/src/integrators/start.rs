@@ -212,11 +212,12 @@ fn check_start<D: Scalar, const N: usize, const C: usize>(
         return Err(StartError::NotFinite { coordinate });
     }
     let (values, rows) = jacobian(&x, constraints);
-    let extent = ON_MANIFOLD * scale::constraint(&x);
-    let rates = ON_MANIFOLD * scale::largest(&x).max(1.0) * scale::largest(&v_dot).max(1.0);
+    let extents = scale::constraints(&rows, &x, |_| 0.0);
     for (constraint, (value, row)) in values.into_iter().zip(rows).enumerate() {
         let rate: f64 = row.iter().zip(&v_dot).map(|(g, v)| g * v).sum();
-        if !(value.abs() <= extent && rate.abs() <= rates) {
+        let rates: f64 = row.iter().zip(&v_dot).map(|(g, v)| (g * v).abs()).sum();
+        let fits = value.abs() <= ON_MANIFOLD * extents[constraint];
+        if !(fits && rate.abs() <= ON_MANIFOLD * rates) {
             return Err(StartError::OffManifold { constraint, value, rate });
         }
     }

@@ -29,7 +29,7 @@ pub struct Variational<S, const N: usize, const C: usize, const U: usize, D = f6
     /// `p⁺` of the last step.
     p: [D; N],
     mu: [D; C],
-    largest: Largest,
+    largest: Largest<N>,
     pub(super) progress: Progress,
 }
 
@@ -47,8 +47,9 @@ where
 
     /// From a configuration on the manifold, its momentum, and a guess of its velocity.
     pub fn from_momentum(system: S, h: f64, x: [D; N], p: [D; N], velocity: [D; N]) -> Self {
-        let mut largest = Largest::new(&system.momenta(&x, &velocity, h), &velocity);
-        largest.update(&p, &velocity);
+        let mut momenta = system.momenta(&x, &velocity, h);
+        momenta.begin = p;
+        let largest = Largest::new(&momenta, &velocity);
         let mu = [D::from(0.0); C];
         Self { system, x, d: velocity, p, mu, largest, progress: Progress::new(h) }
     }
@@ -83,8 +84,9 @@ where
         let Self { system, x, d, p, mu, largest, progress } = &*self;
         let (_, g) = jacobian(x, |v| system.constraints(v));
         let start = std::array::from_fn(|i| if i < N { d[i] } else { mu[i - N] });
-        let extent = scale::constraint(x);
-        let scale = std::array::from_fn(|i| if i < N { largest.momentum } else { extent });
+        let extents = scale::constraints(&g, x, |i| d[i] * h);
+        let scale =
+            std::array::from_fn(|i| if i < N { largest.momentum(i) } else { extents[i - N] });
         let root = solve(start, &scale, |unknowns: &[D; U]| {
             let d: [D; N] = std::array::from_fn(|i| unknowns[i]);
             let y: [D; N] = std::array::from_fn(|i| x[i] + d[i] * h);
@@ -102,8 +104,9 @@ where
         on_branch_of_short_steps(&root.at.jacobian).map_err(|failure| progress.error(failure))?;
         self.d = std::array::from_fn(|i| root.x[i]);
         self.mu = std::array::from_fn(|c| root.x[N + c]);
-        (self.x, self.p) = root.at.known;
-        self.largest.update(&self.p, &self.d);
+        let (y, end) = root.at.known;
+        self.largest.update(|i| root.at.jacobian[i][i], [&self.p, &end], &self.d);
+        (self.x, self.p) = (y, end);
         self.progress.solved(&root);
         Ok(())
     }
@@ -130,8 +133,10 @@ where
         let Self { system, x, d, p, largest, progress, .. } = self;
         let (_, g) = jacobian(x, |v| system.constraints(v));
         let start = std::array::from_fn(|i| if i < N { d[i] } else { D::from(0.0) });
-        let rate = largest.constraint_rate(x);
-        let scale = std::array::from_fn(|i| if i < N { largest.momentum } else { rate });
+        let scale = std::array::from_fn(|i| match i.checked_sub(N) {
+            Some(c) => largest.rate(&g[c]),
+            None => largest.momentum(i),
+        });
         let root = solve(start, &scale, |unknowns: &[D; U]| {
             let v_dot: [D; N] = std::array::from_fn(|i| unknowns[i]);
             let start = system.start(x, &v_dot, progress.h);

@@ -47,6 +47,19 @@ impl Moving for Composed {
         self.simulation.conserved()
     }
 
+    fn kinetic(&self, configuration: &[f64], velocity: &[f64]) -> f64 {
+        Moving::kinetic(&self.simulation, configuration, velocity)
+    }
+
+    fn keeps_energy(&self) -> bool {
+        self.simulation.keeps_energy()
+    }
+
+    fn in_steps_of(&self, h: f64) -> Option<Box<dyn Moving>> {
+        let simulation = Simulation::in_steps_of(&self.simulation, h);
+        Some(Box::new(Self { simulation, stages: self.stages }))
+    }
+
     fn progress(&self) -> &Progress {
         self.simulation.progress()
     }

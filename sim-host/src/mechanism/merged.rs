@@ -1,9 +1,11 @@
 //! Bodies of one's own without the joints that do not move.
 
-use super::moving::Moving;
+use super::moving::{Moving, kinetic};
 use crate::contact::ContactPoint;
 use crate::integrators::{Progress, StepError};
-use crate::multibody::{BodyState, JointConstraint, Reduced, Simulation, SystemError, merged};
+use crate::multibody::{
+    BodyState, JointConstraint, Reduced, Simulation, System, SystemError, merged,
+};
 use crate::record::SavedMotion;
 
 /// Why links are not merged.
@@ -76,6 +78,7 @@ pub(super) fn without_fixed_joints(
 
 /// A motion of merged links, told as that of all.
 pub(super) struct Merged {
+    pub whole: System,
     pub reduced: Reduced,
     pub moving: Box<dyn Moving>,
 }
@@ -97,6 +100,21 @@ impl Moving for Merged {
     fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError> {
         let (energy, momentum, constraint) = self.moving.conserved()?;
         Ok((energy + self.reduced.still_energy(), momentum, constraint))
+    }
+
+    /// Of all bodies: those that are merged with the world do not move.
+    fn kinetic(&self, configuration: &[f64], velocity: &[f64]) -> f64 {
+        kinetic(&self.whole, configuration, velocity)
+    }
+
+    fn keeps_energy(&self) -> bool {
+        self.moving.keeps_energy()
+    }
+
+    fn in_steps_of(&self, h: f64) -> Option<Box<dyn Moving>> {
+        let moving = self.moving.in_steps_of(h)?;
+        let (whole, reduced) = (self.whole.clone(), self.reduced.clone());
+        Some(Box::new(Self { whole, reduced, moving }))
     }
 
     fn progress(&self) -> &Progress {

@@ -1,5 +1,6 @@
 //! Runs of mechanisms that nobody controls (chapter 2), under any method.
 
+mod cause;
 mod composed;
 mod merged;
 mod model;
@@ -9,6 +10,7 @@ mod smaller;
 mod start;
 mod tree;
 
+pub use cause::Cause;
 pub use merged::NotMerged;
 pub use model::{ChosenModel, MechanismModel, Started};
 pub use moving::Moving;

@@ -71,6 +71,7 @@ pub(super) fn with_model(
         };
         return Ok(Started { moving: Box::new(whole), model: Some(model) });
     }
+    let system = whole.system().clone();
     let start = match without_fixed_joints(&mut whole, torques)? {
         Ok(start) => start,
         Err(reason) if wanted == Some(MechanismModel::Merged) => return Err(reason.into()),
@@ -128,7 +129,7 @@ pub(super) fn with_model(
     };
     let moving: Box<dyn Moving> = match reduced {
         None => moving,
-        Some(reduced) => Box::new(Merged { reduced, moving }),
+        Some(reduced) => Box::new(Merged { whole: system, reduced, moving }),
     };
     Ok(Started { moving, model: Some(ChosenModel { model, bodies, reason }) })
 }

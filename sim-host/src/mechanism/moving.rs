@@ -28,6 +28,12 @@ pub trait Moving {
     /// As for [`Self::state`].
     fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError>;
 
+    /// Kinetic energy with this configuration and velocity, J.
+    fn kinetic(&self, configuration: &[f64], velocity: &[f64]) -> f64;
+
+    /// Whether nothing takes or gives energy: no damper, no motor, no floor.
+    fn keeps_energy(&self) -> bool;
+
     /// Time and statistics.
     fn progress(&self) -> &Progress;
 
@@ -40,6 +46,12 @@ pub trait Moving {
     /// Points that can touch the floor.
     fn contacts(&self) -> &[ContactPoint] {
         &[]
+    }
+
+    /// The same motion from here on, in steps of another length, as of time zero; none of a motion that can only be
+    /// started anew.
+    fn in_steps_of(&self, _h: f64) -> Option<Box<dyn Moving>> {
+        None
     }
 
     /// All that is needed to go on from here, for motions that can be taken up again.
@@ -83,6 +95,16 @@ impl<S: Lagrangian<N, C>, const N: usize, const C: usize> Moving for Moved<S, N,
         Ok((self.system.energy(x, &v), (self.momentum)(&self.system, x, &v), largest))
     }
 
+    fn kinetic(&self, configuration: &[f64], velocity: &[f64]) -> f64 {
+        let [x, v] = [configuration, velocity].map(|all| std::array::from_fn(|i| all[i]));
+        0.5 * (self.system.energy(&x, &v) + self.system.lagrangian(&x, &v))
+    }
+
+    fn keeps_energy(&self) -> bool {
+        let x = self.motion.configuration();
+        self.system.force(x, &[0.0; N]).is_none()
+    }
+
     fn progress(&self) -> &Progress {
         self.motion.progress()
     }
@@ -103,6 +125,18 @@ pub(super) fn is_free(system: &System) -> bool {
         && system.ground().is_none()
         && system.closures().iter().all(|closure| closure.inboard.is_some())
         && system.links().iter().all(|l| l.inboard.is_some() || l.joint.constraints() == 0)
+}
+
+/// Kinetic energy of bodies in a row, J.
+pub(super) fn kinetic(system: &System, configuration: &[f64], velocity: &[f64]) -> f64 {
+    system.kinetic_energy(configuration.as_chunks().0, velocity.as_chunks().0)
+}
+
+/// Whether no floor, no striker and no damper takes energy.
+pub(super) fn dissipates_nothing(system: &System) -> bool {
+    system.ground().is_none()
+        && system.strikers().is_empty()
+        && system.laws().iter().all(|(_, law)| law.damping == 0.0)
 }
 
 /// What [`Moving::conserved`] tells of bodies; their rates are asked for where these are free.
@@ -130,6 +164,18 @@ impl Moving for Simulation {
         let energies = self.energies()?;
         let rates = if is_free(self.system()) { self.rates()? } else { Vec::new() };
         Ok(conserved(self.system(), energies, &self.states(), &rates))
+    }
+
+    fn kinetic(&self, configuration: &[f64], velocity: &[f64]) -> f64 {
+        kinetic(self.system(), configuration, velocity)
+    }
+
+    fn keeps_energy(&self) -> bool {
+        dissipates_nothing(self.system()) && !self.is_driven()
+    }
+
+    fn in_steps_of(&self, h: f64) -> Option<Box<dyn Moving>> {
+        Some(Box::new(Self::in_steps_of(self, h)))
     }
 
     fn progress(&self) -> &Progress {

@@ -1,5 +1,6 @@
 //! One run.
 
+use super::cause::{Cause, Kept, cause};
 use super::model::{ChosenModel, MechanismModel, Started};
 use super::moving::Moving;
 use super::start::{StartFailure, start_model};
@@ -49,12 +50,24 @@ pub struct MechanismRun {
     pub saved: Option<SavedRun>,
     /// Why it ended early.
     pub failure: Option<StepError>,
+    /// What trials have found about that.
+    pub cause: Option<Cause>,
+    /// Largest kinetic energy of the samples, J.
+    pub kinetic_max: f64,
+    /// Whether nothing takes or gives energy.
+    pub keeps_energy: bool,
     /// Computing time.
     pub wall: Duration,
 }
 
 /// Moments at which the longest step is foretold.
 const FORECASTS: u64 = 10;
+/// Motions that are kept for trials in a run that fails, one after the other.
+const KEPT: u64 = 100;
+/// Share of the largest kinetic energy by which a kept energy may be off before the run says so.
+const LOST: f64 = 0.1;
+/// The same share of the energy itself, of what hardly moves.
+pub(super) const ROUND_OFF: f64 = 1e-9;
 /// Samples at most.
 const SAMPLES: u64 = 4000;
 
@@ -107,8 +120,12 @@ pub fn run_model(
         events: Vec::new(),
         saved: None,
         failure: None,
+        cause: None,
+        kinetic_max: 0.0,
+        keeps_energy: moving.keeps_energy(),
         wall: Duration::ZERO,
     };
+    let mut kept: [Option<Kept>; 2] = [None, None];
     let begun = Instant::now();
     for step in first..=steps.max(first) {
         let is_sample = step % every == 0 || step == steps;
@@ -125,6 +142,12 @@ pub fn run_model(
         }
         if is_sample {
             at(run.progress.time_s);
+        }
+        if step % steps.div_ceil(KEPT) == 0 {
+            let h = run.progress.h;
+            let moving = moving.in_steps_of(h);
+            let now = moving.map(|moving| Kept { time_s: run.progress.time_s, moving });
+            kept = [kept[1].take(), now];
         }
         if step >= steps {
             break;
@@ -144,6 +167,12 @@ pub fn run_model(
         supervisor: None,
     });
     run.wall = begun.elapsed();
+    // The one before last: what fails has begun before it fails.
+    let kept = kept.into_iter().flatten().next();
+    run.cause = run
+        .failure
+        .as_ref()
+        .map(|failure| cause(scene, wanted, (failure, run.unknowns), kept.as_ref()));
     Ok(run)
 }
 
@@ -177,6 +206,7 @@ fn look(moving: &mut dyn Moving, run: &mut MechanismRun, is_sample: bool) -> Res
     run.constraint_max = run.constraint_max.max(constraint);
     if is_sample {
         let (configuration, velocity) = moving.state()?;
+        run.kinetic_max = run.kinetic_max.max(moving.kinetic(&configuration, &velocity));
         let time_s = run.progress.time_s;
         run.samples.push(MechanismSample {
             time_s,
@@ -191,6 +221,14 @@ fn look(moving: &mut dyn Moving, run: &mut MechanismRun, is_sample: bool) -> Res
 }
 
 impl MechanismRun {
+    /// Whether energy that nothing takes or gives has changed beyond bearing.
+    pub fn has_lost_energy(&self) -> bool {
+        let [low, high] = self.energy_range;
+        // What hardly moves has round-off of potential energy to show.
+        let round_off = ROUND_OFF * low.abs().max(high.abs());
+        self.keeps_energy && high - low > LOST * self.kinetic_max + round_off
+    }
+
     /// Slope of the energy's straight line, J/s; none for fewer than two samples.
     pub fn energy_slope(&self) -> Option<f64> {
         let n = self.samples.len() as f64;

@@ -1,6 +1,6 @@
 //! Motions in a plane, and of one free body, as those of any other mechanism.
 
-use super::moving::{Moving, conserved, is_free};
+use super::moving::{Moving, conserved, dissipates_nothing, is_free, kinetic};
 use crate::contact::ContactPoint;
 use crate::integrators::{Progress, StepError};
 use crate::multibody::{BodyState, PlanarSimulation, Simulation, SingleBody, System, SystemError};
@@ -28,6 +28,18 @@ impl Moving for PlanarSimulation {
         let energies = self.energies()?;
         let rates = if is_free(self.system()) { self.rates()? } else { Vec::new() };
         Ok(conserved(self.system(), energies, &self.states(), &rates))
+    }
+
+    fn kinetic(&self, configuration: &[f64], velocity: &[f64]) -> f64 {
+        kinetic(self.system(), configuration, velocity)
+    }
+
+    fn keeps_energy(&self) -> bool {
+        dissipates_nothing(self.system()) && !self.is_driven()
+    }
+
+    fn in_steps_of(&self, h: f64) -> Option<Box<dyn Moving>> {
+        Some(Box::new(Self::in_steps_of(self, h)))
     }
 
     fn progress(&self) -> &Progress {
@@ -70,6 +82,18 @@ impl Moving for SingleBody {
 
     fn conserved(&mut self) -> Result<(f64, Vec<f64>, f64), StepError> {
         Ok(conserved(self.system(), self.energies(), &[Self::state(self)], &[self.rate()]))
+    }
+
+    fn kinetic(&self, configuration: &[f64], velocity: &[f64]) -> f64 {
+        kinetic(self.system(), configuration, velocity)
+    }
+
+    fn keeps_energy(&self) -> bool {
+        dissipates_nothing(self.system())
+    }
+
+    fn in_steps_of(&self, h: f64) -> Option<Box<dyn Moving>> {
+        Some(Box::new(Self::in_steps_of(self, h)))
     }
 
     fn progress(&self) -> &Progress {

@@ -67,6 +67,14 @@ impl JointLaw {
         (torque, slope)
     }
 
+    /// What its torque over a step is a sum of, in absolute values: springs' and dampers' may cancel.
+    pub(super) fn terms(&self, a: f64, way: f64, h: f64) -> f64 {
+        let at = a.abs() + way.abs();
+        let spring = self.stiffness * (at + self.rest.abs()) + (self.damping * way / h).abs();
+        let stop = self.stops.filter(|stops| stops.beyond(a) != 0.0);
+        spring + stop.map_or(0.0, |s| s.stiffness * (at + s.low.abs().max(s.high.abs())))
+    }
+
     /// Energy held at `x`, J.
     pub fn energy(&self, x: f64) -> f64 {
         let spring = 0.5 * self.stiffness * (x - self.rest).powi(2);

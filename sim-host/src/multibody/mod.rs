@@ -20,6 +20,7 @@ mod planar;
 mod recursive;
 mod reduction;
 mod robot;
+mod scale;
 mod single_body;
 mod start_check;
 mod stepping;

@@ -9,8 +9,10 @@ const MOST_ITERATIONS: u32 = 40;
 const MOST_HALVINGS: u32 = 12;
 /// Residuals, relative to their terms, that count as a root once they fall no further.
 const TOLERANCE: f64 = 1e-10;
+/// The same where they fall slowly by an old elimination: above it a new one is worth its cost.
+const SLOW: f64 = 1e-12;
 /// Residuals that count as a root at once.
-const ROUND_OFF: f64 = 2e-15;
+pub(super) const ROUND_OFF: f64 = 2e-15;
 /// While residuals fall by this in an iteration, the elimination is used again.
 const FAST: f64 = 1e-2;
 /// Cosine of half the angle by which a body may turn in a step: beyond a quarter turn (2.51) folds.
@@ -146,7 +148,7 @@ fn advance(equations: &mut impl StepEquations, h: f64) -> Result<(), StepError> 
                 is_fresh = tried < FAST * error;
                 error = tried;
                 iterations += 1;
-                if error <= TOLERANCE && !is_fresh {
+                if error <= SLOW && !is_fresh {
                     // So close to a root only round-off makes it slow.
                     break 'newton Ok(());
                 }

@@ -75,14 +75,17 @@ impl Scene {
                 None if self.matters.deviation_m < LUMPED_DEVIATION_M => (
                     BipedModel::Full,
                     format!(
-                        "{:.0e} m matter, and the lumped model is off by up to {LUMPED_DEVIATION_M:.0e} m",
+                        "{:.0e} m matter, and the lumped model is off by up to {LUMPED_DEVIATION_M:.0e} m in the \
+                         built-in scenes",
                         self.matters.deviation_m
                     ),
                 ),
+                // What was measured in the built-in scenes is not claimed of others.
                 None => (
                     BipedModel::Lumped,
                     format!(
-                        "within {LUMPED_DEVIATION_M:.0e} m of the full model, and {:.0e} m matter",
+                        "{:.0e} m matter; in the built-in scenes it is within {LUMPED_DEVIATION_M:.0e} m of the full \
+                         model (chart parsimony measures others)",
                         self.matters.deviation_m
                     ),
                 ),

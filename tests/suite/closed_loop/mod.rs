@@ -2,6 +2,7 @@
 
 mod acting;
 mod bad_ticks;
+mod causes;
 mod error_dynamics;
 mod experiment_1;
 mod experiment_2;

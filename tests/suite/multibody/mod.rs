@@ -1,5 +1,7 @@
 //! §5.4.
 
+mod energies;
+mod failures;
 mod forces;
 mod limits;
 mod loops;
@@ -12,6 +14,7 @@ mod planar;
 mod reference;
 mod rerooted;
 mod resume;
+mod scales;
 mod solver;
 mod strikes;
 mod throws;

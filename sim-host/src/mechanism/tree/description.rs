@@ -40,6 +40,7 @@ pub(super) fn tree_model(
         held[column(link)] = *torque;
     }
     let law = |(link, law): &(usize, JointLaw)| Law {
+        link: *link,
         column: column(*link),
         from: simulation.angle(*link),
         law: *law,

@@ -42,6 +42,9 @@ pub(super) trait TreeModel: Send + Sync {
         velocities: &[f64],
     ) -> Result<(Vec<BodyState>, Vec<BodyState>), DynamicsFault>;
 
+    /// Where the joint of a link with a law is, rad or m.
+    fn angle(&self, link: usize, positions: &[f64]) -> f64;
+
     /// Where among the positions the unit quaternion of a floating body is.
     fn quaternion(&self) -> Option<usize>;
 }
@@ -55,9 +58,11 @@ pub(super) struct Rates<'a> {
     pub velocities: &'a mut [f64],
 }
 
-/// A spring and damper of a joint, by velocity.
+/// A spring and damper of a joint.
 #[derive(Clone, Copy)]
 pub(super) struct Law {
+    pub link: usize,
+    /// Its velocity.
     pub column: usize,
     /// The joint's angle at the start.
     pub from: f64,
@@ -76,6 +81,10 @@ impl<const N: usize, const NQ: usize, const NV: usize> Sized<N, NQ, NV> {
     fn is_afloat(&self) -> bool {
         NQ > NV
     }
+
+    fn angle(law: &Law, positions: &[f64]) -> f64 {
+        positions[law.column + NQ - NV] + law.from
+    }
 }
 
 impl<const N: usize, const NQ: usize, const NV: usize> TreeModel for Sized<N, NQ, NV> {
@@ -92,8 +101,9 @@ impl<const N: usize, const NQ: usize, const NV: usize> TreeModel for Sized<N, NQ
         let q: [f64; NQ] = std::array::from_fn(|i| positions[i]);
         let v: [f64; NV] = std::array::from_fn(|i| velocities[i]);
         let mut torques = self.torques;
-        for Law { column, from, law } in &self.laws {
-            let angle = q[column + NQ - NV] + from;
+        for held in &self.laws {
+            let Law { column, law, .. } = held;
+            let angle = Self::angle(held, positions);
             torques[*column] -= law.stiffness * (angle - law.rest) + law.damping * v[*column];
         }
         let poses = joint_poses(&self.tree, &q)?;
@@ -117,6 +127,11 @@ impl<const N: usize, const NQ: usize, const NV: usize> TreeModel for Sized<N, NQ
         let q: [f64; NQ] = std::array::from_fn(|i| positions[i]);
         let v: [f64; NV] = std::array::from_fn(|i| velocities[i]);
         states_of_tree(&self.tree, &q, &v)
+    }
+
+    fn angle(&self, link: usize, positions: &[f64]) -> f64 {
+        let law = self.laws.iter().find(|law| law.link == link);
+        law.map_or(0.0, |law| Self::angle(law, positions))
     }
 
     fn quaternion(&self) -> Option<usize> {

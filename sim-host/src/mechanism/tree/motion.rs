@@ -1,6 +1,6 @@
 //! Methods on the differential equations of a tree, in joint coordinates: what most simulators do.
 
-use super::super::moving::Moving;
+use super::super::moving::{Moving, dissipates_nothing, kinetic};
 use super::description::tree_model;
 use super::equations::{Rates, TreeModel};
 use crate::integrators::{Method, Progress, StartError, StepError, StepFailure};
@@ -28,6 +28,8 @@ pub(crate) struct OnTree {
     system: System,
     /// Whether angular momentum is conserved.
     is_free: bool,
+    /// Whether a motor does work.
+    is_driven: bool,
     method: TreeMethod,
     positions: Vec<f64>,
     velocities: Vec<f64>,
@@ -57,7 +59,9 @@ impl OnTree {
         let (positions, velocities) = model.start();
         let progress = Progress::new(simulation.progress().h);
         let system = simulation.system().clone();
-        Ok(Self { model, system, is_free, method: on_tree, positions, velocities, progress })
+        let is_driven = torques.iter().any(|torque| *torque != 0.0);
+        let method = on_tree;
+        Ok(Self { model, system, is_free, is_driven, method, positions, velocities, progress })
     }
 
     fn fault(&self, fault: DynamicsFault) -> StepError {
@@ -165,7 +169,16 @@ impl Moving for OnTree {
         let system = &self.system;
         let momentum =
             if self.is_free { system.momentum(&states, &rates).1.to_vec() } else { Vec::new() };
-        Ok((system.energy(&states, &rates), momentum, system.largest_constraint(&states)))
+        let energy = system.energy(&states, &rates, |link| self.model.angle(link, &self.positions));
+        Ok((energy, momentum, system.largest_constraint(&states)))
+    }
+
+    fn kinetic(&self, configuration: &[f64], velocity: &[f64]) -> f64 {
+        kinetic(&self.system, configuration, velocity)
+    }
+
+    fn keeps_energy(&self) -> bool {
+        dissipates_nothing(&self.system) && !self.is_driven
     }
 
     fn progress(&self) -> &Progress {

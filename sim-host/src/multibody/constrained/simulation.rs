@@ -12,8 +12,10 @@
 //! `[M −Gᵀ; G 0]` with no power of h, where the raw one's condition grows as h⁻².
 
 use super::super::body::BodyState;
+use super::super::scale::Scale;
 use super::super::system::{System, WORLD};
 use super::super::system_error::SystemError;
+use super::scales::{extent, inertia};
 use super::tree_solver::{Correction, Equations, TreeEquations};
 use super::trial::Trial;
 use crate::integrators::{Progress, StepError, StepFailure};
@@ -22,18 +24,19 @@ use crate::newton::NewtonFailure;
 /// A motion of a system.
 #[derive(Clone, Debug)]
 pub struct ConstrainedSimulation {
-    system: System,
+    pub(super) system: System,
     states: Vec<BodyState>,
     /// Mean velocities of the last step.
-    d: Vec<BodyState>,
+    pub(super) d: Vec<BodyState>,
     /// `p⁺` of the last step.
-    momenta: Vec<BodyState>,
-    multipliers: Vec<Correction>,
-    equations: TreeEquations,
+    pub(super) momenta: Vec<BodyState>,
+    pub(super) multipliers: Vec<Correction>,
+    pub(super) equations: TreeEquations,
     /// Iterates, corrections, and momenta at the end of the step tried.
     trial: Trial,
-    largest_momentum: f64,
-    progress: Progress,
+    /// Of the step that is being made.
+    scale: Scale,
+    pub(super) progress: Progress,
 }
 
 /// Newton steps at most.
@@ -69,9 +72,6 @@ impl ConstrainedSimulation {
         let each = || system.links().iter().zip(&states).zip(&rates);
         let momenta: Vec<BodyState> =
             each().map(|((link, x), v)| link.body.momenta(x, v, 0.0, gravity).begin).collect();
-        // At rest gravity's first impulse is the size to go by.
-        let first = each().map(|((link, x), v)| link.body.momenta(x, v, h, gravity).begin);
-        let largest_momentum = first.flatten().fold(f64::MIN_POSITIVE, |m, p| m.max(p.abs()));
         let trial = Trial::new(&rates, &momenta);
         Ok(Self {
             system,
@@ -81,7 +81,7 @@ impl ConstrainedSimulation {
             multipliers: trial.multipliers.clone(),
             equations: TreeEquations::new(nodes),
             trial,
-            largest_momentum,
+            scale: Scale::default(),
             progress: Progress::new(h),
         })
     }
@@ -184,7 +184,6 @@ impl ConstrainedSimulation {
         for k in 0..self.states.len() {
             for i in 0..7 {
                 self.states[k][i] += h * self.trial.d[k][i];
-                self.largest_momentum = self.largest_momentum.max(self.trial.ends[k][i].abs());
             }
         }
         self.d.copy_from_slice(&self.trial.d);
@@ -210,6 +209,7 @@ impl ConstrainedSimulation {
             node.outboard_rows[0] = rows.outboard;
             node.inboard_rows[0] = rows.inboard;
         }
+        self.scale = self.measured();
     }
 
     /// Residual (5.11) and Jacobian (5.13) at the trial, into `equations`; largest residual relative to
@@ -254,10 +254,12 @@ impl ConstrainedSimulation {
             let norm = y[3..].iter().map(|q| q * q).sum::<f64>() - 1.0;
             node.norm_error = norm / h;
             note(norm, 1.0);
-            let extent = y[..3].iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+            // A length is off against the joint's arms, and where it is; an angle against one.
+            let away = y[..3].iter().fold(extent(link), |m, x| m.max(x.abs()));
             for c in 0..node.constraints {
                 node.error[c] = end.error[c] / h;
-                note(end.error[c], extent);
+                let is_length = end.outboard[c][..3].iter().any(|g| *g != 0.0);
+                note(end.error[c], if is_length { away } else { 1.0 });
             }
         }
         // Outboard joints pull on their inboard bodies.
@@ -273,11 +275,13 @@ impl ConstrainedSimulation {
                 }
             }
         }
-        for node in &self.equations.nodes {
-            for f in node.force {
-                note(f, self.largest_momentum);
+        let mut sum = 0.0;
+        for (node, link) in self.equations.nodes.iter().zip(self.system.links()) {
+            for (f, inertia) in node.force.iter().zip(inertia(&link.body)) {
+                sum += f * f / inertia;
             }
         }
+        note(self.scale.relative(sum), 1.0);
         largest
     }
 }

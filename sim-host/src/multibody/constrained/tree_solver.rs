@@ -140,11 +140,15 @@ impl TreeEquations {
         let node = &self.nodes[k];
         let (constraints, inboard) = (node.constraints, node.inboard);
         let unknowns = COORDINATES + 1 + constraints;
-        let (matrix, right) = assembled(node);
+        let unit = unit(node);
+        let (matrix, right) = assembled(node, unit);
         let kept = &mut self.kept[k];
         *kept = right;
         if !solve(matrix, kept, unknowns) {
             return Err(SingularJoint { joint: k });
+        }
+        for row in &mut kept[COORDINATES..unknowns] {
+            row.iter_mut().for_each(|x| *x *= unit);
         }
         let Some(inboard) = inboard else { return Ok(()) };
         let [begin, end] = self.nodes[k].inboard_rows;
@@ -171,25 +175,30 @@ impl TreeEquations {
     }
 }
 
-/// The matrix and the right sides of (5.15): with the inboard body standing still, and for unit errors of
-/// the joint's constraints.
-fn assembled(node: &Equations) -> ([[f64; SIZE]; SIZE], Kept) {
+/// Of multipliers, so that the blocks of (5.15) are of one size in all units: the largest of `M`'s diagonal.
+fn unit(node: &Equations) -> f64 {
+    (0..COORDINATES).fold(f64::MIN_POSITIVE, |m, i| m.max(node.stiffness[i][i].abs()))
+}
+
+/// The matrix and the right sides of (5.15), with constraints and multipliers in this unit: with the inboard body
+/// standing still, and for unit errors of the joint's constraints.
+fn assembled(node: &Equations, unit: f64) -> ([[f64; SIZE]; SIZE], Kept) {
     let mut matrix = [[0.0; SIZE]; SIZE];
     let mut right = [[0.0; RIGHT]; SIZE];
     for i in 0..COORDINATES {
         matrix[i][..COORDINATES].copy_from_slice(&node.stiffness[i]);
-        matrix[i][COORDINATES] = -node.norm[0][i];
-        matrix[COORDINATES][i] = node.norm[1][i];
+        matrix[i][COORDINATES] = -node.norm[0][i] * unit;
+        matrix[COORDINATES][i] = node.norm[1][i] * unit;
         for c in 0..node.constraints {
-            matrix[i][COORDINATES + 1 + c] = -node.outboard_rows[0][c][i];
-            matrix[COORDINATES + 1 + c][i] = node.outboard_rows[1][c][i];
+            matrix[i][COORDINATES + 1 + c] = -node.outboard_rows[0][c][i] * unit;
+            matrix[COORDINATES + 1 + c][i] = node.outboard_rows[1][c][i] * unit;
         }
         right[i][0] = -node.force[i];
     }
-    right[COORDINATES][0] = -node.norm_error;
+    right[COORDINATES][0] = -node.norm_error * unit;
     for c in 0..node.constraints {
-        right[COORDINATES + 1 + c][0] = -node.error[c];
-        right[COORDINATES + 1 + c][1 + c] = 1.0;
+        right[COORDINATES + 1 + c][0] = -node.error[c] * unit;
+        right[COORDINATES + 1 + c][1 + c] = unit;
     }
     (matrix, right)
 }

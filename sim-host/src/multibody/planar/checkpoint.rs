@@ -21,8 +21,6 @@ pub struct PlanarCheckpoint {
     pub(super) last_h: f64,
     /// By point that is seen in the plane.
     pub(super) memories: Vec<ContactPoint>,
-    /// Largest speed so far, m/s: what residuals are measured by.
-    pub(super) fastest: f64,
     pub(super) progress: Progress,
 }
 
@@ -37,7 +35,6 @@ impl PlanarCheckpoint {
         }
         self.last_h = other.last_h;
         self.memories.copy_from_slice(&other.memories);
-        self.fastest = other.fastest;
         self.progress = other.progress;
     }
 

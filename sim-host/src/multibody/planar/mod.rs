@@ -13,6 +13,7 @@ mod node;
 mod not_planar;
 mod plane;
 mod rates;
+mod scales;
 mod simulation;
 mod step;
 mod stepping;

@@ -97,8 +97,11 @@ impl PlanarSimulation {
             .enumerate()
             .map(|(k, node)| node.mass * gravity * self.state(k)[2])
             .sum();
-        let laws = self.laws.iter().zip(&self.at.angles);
-        let in_joints: f64 = laws.map(|(law, angle)| law.law.energy(*angle)).sum();
+        let angle = |link| {
+            let mut each = self.laws.iter().zip(&self.at.angles);
+            each.find(|(law, _)| law.node == link).map_or(0.0, |(_, angle)| *angle)
+        };
+        let in_joints = self.system.energy_in_joints(angle);
         let mut in_floor = 0.0;
         if let Some((floor, _)) = self.system.ground() {
             for (node, place) in self.nodes.iter().zip(&self.places) {

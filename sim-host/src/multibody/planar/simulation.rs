@@ -12,6 +12,7 @@ use super::elimination::Elimination;
 use super::node::{Coordinates, Kind, Node, Place, nodes};
 use super::not_planar::PlanarError;
 use super::plane::{Body, Plane};
+use super::scales::Scales;
 use super::step::{End, project};
 use super::touch::{Touch, of_link, touches};
 use crate::contact::ContactPoint;
@@ -55,8 +56,7 @@ pub struct PlanarSimulation {
     pub(super) places: Vec<Place>,
     /// By column, N·m or N, as the plane counts.
     pub(super) torques: Vec<f64>,
-    /// By column: what its momentum is in speed, 1/kg or 1/(kg·m).
-    pub(super) weights: Vec<f64>,
+    pub(super) scales: Scales,
     pub(super) touches: Vec<Touch>,
     /// By contact site of the system: the touch that it is part of, and its memory.
     pub(super) part_of: Vec<usize>,
@@ -102,7 +102,6 @@ impl PlanarSimulation {
             last: [(); PAST].map(|()| vec![0.0; columns]),
             last_h: h,
             memories: vec![ContactPoint::default(); touches.len()],
-            fastest: system.gravity().abs() * h,
             progress: Progress::new(h),
         };
         let beside = states.iter().map(|x| {
@@ -121,7 +120,7 @@ impl PlanarSimulation {
             at,
             places: vec![Place::WORLD; nodes.len()],
             torques: vec![0.0; columns],
-            weights: weights(&nodes, columns),
+            scales: Scales::new(&nodes, columns),
             contacts: vec![ContactPoint::default(); part_of.len()],
             touches,
             part_of,
@@ -149,6 +148,19 @@ impl PlanarSimulation {
     /// Linear in the number of links for each Newton iteration; no allocation.
     pub fn step(&mut self) -> Result<(), StepError> {
         make_step(self)
+    }
+
+    /// The same motion from here on, in steps of another length, as of time zero.
+    #[must_use]
+    pub fn in_steps_of(&self, h: f64) -> Self {
+        let mut other = self.clone();
+        other.at.progress = Progress::new(h);
+        other
+    }
+
+    /// Whether motors are held.
+    pub fn is_driven(&self) -> bool {
+        self.torques.iter().any(|torque| *torque != 0.0)
     }
 
     /// The system.
@@ -223,7 +235,6 @@ impl PlanarSimulation {
         for (k, (x, v)) in states.iter().zip(rates).enumerate() {
             let (node, place, body) = (&self.nodes[k], &self.places[k], Body::of(x, v));
             let velocity = self.plane.seen(&body.velocity);
-            self.at.fastest = self.at.fastest.max(body.velocity.abs().max());
             let linear = velocity * node.mass;
             let spin = node.moment * body.omega.dot(&self.plane.normal);
             self.ends[k].all = Pair { linear, angular: spin + cross(&place.to_center, &linear) };
@@ -258,23 +269,4 @@ impl PlanarSimulation {
     pub(super) fn turn(&self, link: usize) -> Turn {
         self.places[link].turn
     }
-}
-
-/// Weights of columns: one over what moves with a joint, and over how far out it is.
-fn weights(nodes: &[Node], columns: usize) -> Vec<f64> {
-    let (mut mass, mut moment) = (vec![0.0; nodes.len()], vec![0.0; nodes.len()]);
-    let mut weights = vec![0.0; columns];
-    for (k, node) in nodes.iter().enumerate().rev() {
-        mass[k] += node.mass;
-        moment[k] += node.mass * (node.arm.norm() + (node.moment / node.mass).sqrt());
-        for c in 0..node.kind.columns() {
-            let is_turn = node.kind == Kind::Revolute || c == 2;
-            weights[node.column + c] = 1.0 / if is_turn { moment[k] } else { mass[k] };
-        }
-        if let Some(i) = node.inboard {
-            mass[i] += mass[k];
-            moment[i] += moment[k] + mass[k] * node.lever.norm();
-        }
-    }
-    weights
 }

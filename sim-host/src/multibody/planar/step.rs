@@ -92,23 +92,19 @@ impl PlanarSimulation {
         }
     }
 
-    /// Evaluates (1) at the increments; tells the sum of the squares of the residuals, as speeds.
+    /// Evaluates (1) at the increments; tells `‖r‖²` of [`crate::multibody::scale`].
     #[inline]
     pub(super) fn residuals(&mut self, h: f64) -> f64 {
-        let mut fastest = self.at.fastest;
         let span = Span { h, per_step: 1.0 / h, weight: self.gravity * (0.5 * h) };
         for k in 0..self.nodes.len() {
-            let (end, speed) = self.end(k, &span);
-            self.ends[k] = end;
-            // NaN stays out, and is found in the residuals.
-            fastest = fastest.max(speed.min(fastest.max(1.0) * 2.0));
+            self.ends[k] = self.end(k, &span);
         }
-        self.at.fastest = fastest;
         self.find_laws(h);
         let mut sum = 0.0;
         for k in (0..self.nodes.len()).rev() {
             let (node, place, all) = (&self.nodes[k], &self.places[k], self.ends[k].all);
-            let (momenta, own, weights) = (&self.at.momenta, &self.own_impulses, &self.weights);
+            let (momenta, own) = (&self.at.momenta, &self.own_impulses);
+            let weights = &self.scales.weights;
             project(node, place, &all, &mut |c, along| {
                 let relative = (along - momenta[c] - own[c]) * weights[c];
                 sum += relative * relative;
@@ -137,9 +133,9 @@ impl PlanarSimulation {
         if self.nodes[node].kind == Kind::Prismatic { increment } else { 2.0 * increment.atan() }
     }
 
-    /// Where a body is in the trial, and how fast it gets there, m/s.
+    /// Where a body is in the trial.
     #[inline(always)]
-    fn end(&mut self, k: usize, span: &Span) -> (End, f64) {
+    fn end(&mut self, k: usize, span: &Span) -> End {
         let (node, place) = (&self.nodes[k], &self.places[k]);
         let by = &self.increments[node.column..];
         let (turn_i, rotation_i, moved_i) = match node.inboard {
@@ -191,7 +187,7 @@ impl PlanarSimulation {
             }
         }
         let own = Pair { linear, angular: angular + cross(&place.to_center, &linear) };
-        let end = End {
+        End {
             turn,
             rotation,
             displacement,
@@ -201,8 +197,7 @@ impl PlanarSimulation {
             momentum,
             own,
             all: own,
-        };
-        (end, velocity.x.abs().max(velocity.y.abs()))
+        }
     }
 
     /// `w⁺` of a body alone, about its reference point where the step leads to.

@@ -42,10 +42,16 @@ impl StepEquations for PlanarSimulation {
             }
         }
         self.begin_step(h);
+        self.measure_step(h);
     }
 
     fn evaluate(&mut self, h: f64) -> f64 {
-        self.residuals(h).sqrt() / self.at.fastest.max(f64::MIN_POSITIVE)
+        let residual = self.residuals(h);
+        let mut scale = self.scales.step;
+        if !self.touches.is_empty() {
+            scale.terms += self.felt(h);
+        }
+        scale.relative(residual)
     }
 
     fn correct(&mut self, anew: bool, h: f64) -> Result<(), usize> {

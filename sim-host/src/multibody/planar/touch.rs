@@ -102,6 +102,12 @@ impl Touch {
         Pair { linear, angular: cross(&self.end, &linear) }
     }
 
+    /// Largest force over a step, with what its springs' numbers are made of, as an impulse, N·s.
+    pub fn felt(&self, center: &Vector2<f64>, h: f64) -> f64 {
+        let away = center.x.abs() + center.y.abs() + self.begin.x.abs() + self.begin.y.abs();
+        0.5 * h * self.weight * self.force.terms(away)
+    }
+
     /// Lets go of the floor.
     pub fn forget(&mut self) {
         self.force.slope = Matrix3::zeros();

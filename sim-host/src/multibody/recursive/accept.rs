@@ -55,6 +55,8 @@ impl Simulation {
         }
         let Trial { strikes, ends, .. } = &mut self.trial;
         if !strikes.is_empty() {
+            let speeds = ends.iter().map(|end| end.velocity.abs().max());
+            self.at.fastest = speeds.fold(self.at.fastest, f64::max);
             for (strike, force) in strikes.iter().zip(&mut self.at.strike_forces) {
                 strike.add_end_impulses(&self.places, ends, h);
                 *force = strike.remember(&mut self.at.strikes).into();

@@ -42,7 +42,7 @@ pub struct Checkpoint {
     /// By link that hangs from the world.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) holds: Vec<Hold>,
-    /// Largest speed so far, m/s: what residuals are measured by.
+    /// Largest speed so far, m/s, where something may strike something: how far a step may lead.
     pub(super) fastest: f64,
     pub(super) progress: Progress,
 }

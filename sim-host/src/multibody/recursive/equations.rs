@@ -49,9 +49,10 @@ impl StepEquations for Simulation {
             self.loops.begin(self.system.closures(), &self.places);
             self.loops.drive(self.driven.iter().flat_map(|driven| driven.impulses(h)));
         }
+        self.measure_step(h);
     }
 
-    /// Residuals, and the largest error of a loop.
+    /// (4) of [`crate::multibody::scale`], and the same of the loops' largest error.
     fn evaluate(&mut self, h: f64) -> f64 {
         let coordinates = &self.at.coordinates;
         let step = Step {
@@ -67,22 +68,22 @@ impl StepEquations for Simulation {
         };
         let has_loops = !self.system.closures().is_empty();
         self.trial.evaluate(&step, has_loops.then_some((&self.loops, &self.at.multipliers[..])));
+        let mut scale = self.scales.step;
+        if self.system.ground().is_some() || !self.trial.strikes.is_empty() {
+            scale.terms += self.trial.felt(&step);
+        }
         let mut loop_error = 0.0;
         if has_loops {
             self.loops.end(self.system.closures(), &self.places, &self.trial);
-            loop_error = self.loops.largest_error();
-        }
-        for end in &self.trial.ends {
-            let speed = end.velocity.abs().max();
-            // NaN stays out, and is found in the residuals.
-            self.at.fastest = self.at.fastest.max(speed.min(self.at.fastest.max(1.0) * 2.0));
+            let way = h.abs() * (scale.motion / self.scales.mass).sqrt();
+            loop_error = self.loops.largest_error(way);
         }
         let mut sum = 0.0;
-        for (r, weight) in self.trial.residuals.iter().zip(&self.weights) {
+        for (r, weight) in self.trial.residuals.iter().zip(&self.scales.weights) {
             let relative = r * weight;
             sum += relative * relative;
         }
-        sum.sqrt() / self.at.fastest.max(f64::MIN_POSITIVE) + loop_error
+        scale.relative(sum) + loop_error
     }
 
     fn correct(&mut self, anew: bool, h: f64) -> Result<(), usize> {

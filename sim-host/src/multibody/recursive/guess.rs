@@ -45,6 +45,11 @@ impl Guess {
         }
     }
 
+    /// The last increments, by column, as long as the next ones.
+    pub fn last(&self) -> &[f64] {
+        &self.differences[0]
+    }
+
     /// The next increments.
     pub fn make(&self, nodes: &[Node], increments: &mut [Increment]) {
         let [d0, d1, d2, d3] = &self.differences;

@@ -10,6 +10,7 @@
 
 use super::super::BodyState;
 use super::super::closure::Closure;
+use super::super::scale::beyond;
 use super::super::system::{System, WORLD};
 use super::closing_rows::{ClosingRow, Seen, closing_rows};
 use super::elimination::Elimination;
@@ -30,6 +31,8 @@ pub(super) struct Loops {
     /// Pivots in their order, rows and columns; those that are none are left out.
     pivots: Vec<(usize, usize)>,
     columns: usize,
+    /// Of all arms of the system, and its bodies' radii of gyration, m.
+    length: f64,
     /// Impulses of closing joints' motors at a step's beginning, by body.
     driven: Vec<(usize, Pair)>,
 }
@@ -41,10 +44,12 @@ struct Row {
     begin: [Pair; 2],
     end: [Pair; 2],
     error: f64,
+    /// What makes a length of the error: 1 of one that displacements change, or the system's length of an angle's, m.
+    arm: f64,
+    /// How far the bodies at the end are from the origin, m: their positions are rounded to this.
+    away: f64,
 }
 
-/// Error of a constraint that its evaluation makes: some ten terms of the size of a machine, m.
-const ROUND_OFF: f64 = 2e-15;
 /// Pivots that are no more than round-off beside the first: constraints that say what others say already.
 const DEPENDENT: f64 = 1e-9;
 
@@ -54,7 +59,7 @@ impl Loops {
         for closure in system.closures() {
             let bodies = [Some(closure.outboard), closure.inboard];
             for _ in 0..closure.constraints() {
-                rows.push(Row { bodies, begin: [Pair::ZERO; 2], end: [Pair::ZERO; 2], error: 0.0 });
+                rows.push(Row { bodies, ..Row::NONE });
             }
         }
         let n = rows.len();
@@ -65,6 +70,7 @@ impl Loops {
             schur: vec![0.0; n * n],
             pivots: Vec::with_capacity(n),
             columns,
+            length: system.length(),
             driven: Vec::with_capacity(2 * system.closing_motors().len()),
         }
     }
@@ -80,7 +86,12 @@ impl Loops {
             let place = &places[k];
             (body_state(&place.center, place.orientation.to_array()), place.to_center)
         };
-        self.each(closures, state, |row, found| row.begin = found.pairs);
+        let length = self.length;
+        self.each(closures, state, |row, found, _| {
+            row.begin = found.pairs;
+            let moves = |pair: &Pair| pair.linear != Vector3::zeros();
+            row.arm = if found.pairs.iter().any(moves) { 1.0 } else { length };
+        });
     }
 
     /// Impulses of closing joints' motors at the beginning of a step.
@@ -98,9 +109,10 @@ impl Loops {
             let q = end.turn.turned(place.orientation.to_array());
             (body_state(&center, q), end.to_center)
         };
-        self.each(closures, state, |row, found| {
+        self.each(closures, state, |row, found, away| {
             row.end = found.pairs;
             row.error = found.error;
+            row.away = away;
         });
     }
 
@@ -110,15 +122,17 @@ impl Loops {
         &mut self,
         closures: &[Closure],
         state: impl Fn(usize) -> Seen,
-        fill: impl Fn(&mut Row, &ClosingRow),
+        fill: impl Fn(&mut Row, &ClosingRow, f64),
     ) {
         let mut next = 0;
         for closure in closures {
             let outboard = state(closure.outboard);
             let inboard = closure.inboard.map_or((WORLD, Vector3::zeros()), &state);
             let found = closing_rows(closure, &outboard, &inboard);
+            let far = |x: &BodyState| x[..3].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            let away = far(&outboard.0) + far(&inboard.0);
             for row in &found[..closure.constraints()] {
-                fill(&mut self.rows[next], row);
+                fill(&mut self.rows[next], row, away);
                 next += 1;
             }
         }
@@ -139,10 +153,10 @@ impl Loops {
         held.chain(self.driven.iter().copied())
     }
 
-    /// Largest error of a constraint, beyond that of rounding.
-    pub fn largest_error(&self) -> f64 {
+    /// Largest error of a constraint, beyond that of rounding, against what bodies move by in a step, m.
+    pub fn largest_error(&self, way: f64) -> f64 {
         self.rows.iter().fold(0.0, |m, row| {
-            let e = row.error.abs() - ROUND_OFF;
+            let e = beyond(row.error.abs() * row.arm, self.length + row.away, way);
             if e > m || e.is_nan() { e } else { m }
         })
     }
@@ -190,7 +204,7 @@ impl Loops {
             let mut best = (0, 0, 0.0_f64);
             for i in (0..n).filter(|i| !row_is_used[*i]) {
                 for j in (0..n).filter(|j| !column_is_used[*j]) {
-                    let size = self.schur[i * n + j].abs();
+                    let size = self.schur[i * n + j].abs() * self.rows[i].arm * self.rows[j].arm;
                     if size > best.2 {
                         best = (i, j, size);
                     }
@@ -253,6 +267,15 @@ impl Loops {
 pub(super) const MOST: usize = 96;
 
 impl Row {
+    const NONE: Self = Self {
+        bodies: [None; 2],
+        begin: [Pair::ZERO; 2],
+        end: [Pair::ZERO; 2],
+        error: 0.0,
+        arm: 1.0,
+        away: 0.0,
+    };
+
     /// `G⁺` along a motion of all bodies.
     fn along(&self, motions: &[Pair]) -> f64 {
         let [outboard, inboard] = self.bodies;

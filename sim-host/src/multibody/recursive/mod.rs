@@ -24,6 +24,7 @@ mod motors;
 mod node;
 mod rates;
 mod readings;
+mod scales;
 mod simulation;
 mod stages;
 mod step;

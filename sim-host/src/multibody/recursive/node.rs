@@ -168,6 +168,11 @@ impl Node {
         Place { orientation, rotation, center, to_center, from_inboard, axes, inertia }
     }
 
+    /// Axes in the body that each is fixed to.
+    pub fn axes_in_body(&self) -> &[Vector3<f64>; 2] {
+        &self.axes
+    }
+
     /// The columns' axes at a step's end, from the turns of the inboard and the outboard body.
     #[inline]
     pub fn axes_at_end(&self, place: &Place, inboard: &Turn, outboard: &Turn) -> [Vector3<f64>; 3] {

@@ -133,8 +133,7 @@ impl Simulation {
             .zip(&self.places)
             .map(|(node, place)| node.mass * gravity * place.center.z)
             .sum();
-        let in_joints: f64 =
-            self.trial.laws.iter().map(|law| law.law.energy(self.angle(law.node))).sum();
+        let in_joints = self.system.energy_in_joints(|link| self.angle(link));
         let mut in_floor = 0.0;
         if let Some((floor, _)) = self.system.ground() {
             for (node, place) in self.nodes.iter().zip(&self.places) {

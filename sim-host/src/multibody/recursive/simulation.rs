@@ -13,6 +13,7 @@ use super::loops::{Loops, MOST};
 use super::motors::{Motors, Turned};
 use super::node::{Kind, Node, Place, nodes};
 use super::rates::angular_velocity;
+use super::scales::Scales;
 use super::step::project;
 use super::stiffness::Pair;
 use super::trial::{Loads, Trial};
@@ -36,8 +37,7 @@ pub struct Simulation {
     /// Links whose motion is observed, and links that hang from the world.
     pub(super) watched: Vec<usize>,
     pub(super) hanging: Vec<usize>,
-    /// What a column's momentum is in speed, 1/kg or 1/(kg·m).
-    pub(super) weights: Vec<f64>,
+    pub(super) scales: Scales,
     pub(super) trial: Trial,
     pub(super) base: Vec<Increment>,
     pub(super) base_multipliers: Vec<f64>,
@@ -97,7 +97,7 @@ impl Simulation {
             progress: Progress::new(h),
         };
         let mut simulation = Self {
-            weights: weights(&system, &nodes, columns),
+            scales: Scales::new(&system, &nodes, &at.coordinates, columns),
             saved: at.clone(),
             at,
             splits: true,
@@ -132,6 +132,22 @@ impl Simulation {
     pub fn without_splitting(mut self) -> Self {
         self.splits = false;
         self
+    }
+
+    /// The same motion from here on, in steps of another length, as of time zero.
+    #[must_use]
+    pub fn in_steps_of(&self, h: f64) -> Self {
+        let mut other = self.clone();
+        other.at.progress = Progress::new(h);
+        other
+    }
+
+    /// Whether motors or wrenches are held.
+    pub fn is_driven(&self) -> bool {
+        let in_loops = || self.driven.iter().any(|driven| driven.torques != [0.0; 3]);
+        self.loads.torques.iter().any(|torque| *torque != 0.0)
+            || self.loads.wrenches.iter().any(|wrench| *wrench != Pair::ZERO)
+            || in_loops()
     }
 
     /// The system.
@@ -178,6 +194,7 @@ impl Simulation {
     /// Holds a force (N) on a body's centre of mass and a torque (N·m), world frame, until set again.
     pub fn set_wrench(&mut self, link: usize, force: [f64; 3], torque: [f64; 3]) {
         self.loads.wrenches[link] = Pair { linear: force.into(), angular: torque.into() };
+        self.measure_wrenches();
     }
 
     pub(super) fn find_places(&mut self) {
@@ -254,33 +271,4 @@ impl Simulation {
             }
         }
     }
-}
-
-/// Weights of columns: one over what moves with a joint, and over how far out it is.
-fn weights(system: &System, nodes: &[Node], columns: usize) -> Vec<f64> {
-    let n = nodes.len();
-    let (mut mass, mut moment) = (vec![0.0; n], vec![0.0; n]);
-    let mut weights = vec![0.0; columns];
-    let size = |arm: &[f64; 3]| arm.iter().map(|x| x * x).sum::<f64>().sqrt();
-    for k in (0..n).rev() {
-        let Node { mass: own, inertia, .. } = &nodes[k];
-        let joint = &system.links()[k].joint;
-        let arm = if nodes[k].kind == Kind::Floating { 0.0 } else { size(&joint.outboard) };
-        mass[k] += own;
-        moment[k] += own * (arm + (inertia.max() / own).sqrt());
-        for c in nodes[k].columns.clone() {
-            let is_linear = match nodes[k].kind {
-                Kind::Prismatic => true,
-                Kind::Floating => c - nodes[k].columns.start < 3,
-                _ => false,
-            };
-            weights[c] = 1.0 / if is_linear { mass[k] } else { moment[k] };
-        }
-        if let Some(i) = nodes[k].inboard {
-            let inboard_arm = size(&system.links()[i].joint.outboard);
-            mass[i] += mass[k];
-            moment[i] += moment[k] + mass[k] * (size(&joint.inboard) + inboard_arm);
-        }
-    }
-    weights
 }

@@ -108,14 +108,19 @@ impl Trial {
             return;
         }
         self.own_slopes.fill(0.0);
-        for Law { node, column, law } in &self.laws {
-            let tangent = self.increments[*node].tangents[0];
-            let is_sliding = step.nodes[*node].kind == Kind::Prismatic;
-            let way = if is_sliding { tangent } else { 2.0 * tangent.atan() };
-            let (torque, slope) = law.over_step((step.angles)(*node), way, step.h);
-            self.own_impulses[*column] += half * torque;
-            self.own_slopes[*column] += half * slope;
+        for k in 0..self.laws.len() {
+            let Law { node, column, law } = self.laws[k];
+            let way = self.way(step.nodes, node);
+            let (torque, slope) = law.over_step((step.angles)(node), way, step.h);
+            self.own_impulses[column] += half * torque;
+            self.own_slopes[column] += half * slope;
         }
+    }
+
+    /// What a joint of one coordinate moves by: rad, or m.
+    pub fn way(&self, nodes: &[Node], node: usize) -> f64 {
+        let tangent = self.increments[node].tangents[0];
+        if nodes[node].kind == Kind::Prismatic { tangent } else { 2.0 * tangent.atan() }
     }
 
     /// Where a body is at the trial's end, and the impulse on it alone.

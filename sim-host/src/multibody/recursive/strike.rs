@@ -178,6 +178,18 @@ impl Strike {
         sum
     }
 
+    /// Largest force of a point over a step, with what its springs' numbers are made of, as an impulse, N·s.
+    pub fn felt(&self, h: f64) -> f64 {
+        if !self.is_felt {
+            return 0.0;
+        }
+        let each = self.forces.iter().zip(&self.begin).map(|((force, arm), (_, begin))| {
+            let at = begin.abs().max() + arm.abs().max();
+            force.force.abs().max() + force.slope.abs().max() * at
+        });
+        (0.5 * h * each.sum::<f64>()).abs()
+    }
+
     /// Nothing is felt: for velocities, which belong to steps of no length.
     pub fn forget(&mut self) {
         self.is_felt = false;

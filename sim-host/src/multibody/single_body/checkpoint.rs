@@ -45,8 +45,6 @@ pub struct BodyCheckpoint {
     pub(super) last_h: f64,
     /// By contact site.
     pub(super) memories: Vec<ContactPoint>,
-    /// Largest speed so far, m/s: what residuals are measured by.
-    pub(super) fastest: f64,
     pub(super) progress: Progress,
 }
 

@@ -2,6 +2,7 @@
 
 use super::super::body::BodyState;
 use super::super::joint::JointConstraint;
+use super::super::scale::{Scale, not_too_thin};
 use super::super::stepping::make_step;
 use super::super::system::System;
 use super::super::system_error::SystemError;
@@ -47,8 +48,10 @@ pub struct SingleBody {
     pub(super) mass: f64,
     /// Principal, body axes.
     pub(super) inertia: Vector3<f64>,
-    /// What a turn's momentum is in speed, 1/(kg·m).
-    pub(super) turn_weight: f64,
+    /// `1/I`, about no axis thinner than residuals are measured by.
+    pub(super) turn_weights: Vector3<f64>,
+    /// Of the step that is being made, without what its trials touch.
+    pub(super) scale: Scale,
     /// Where it is, and where it was when the step began that is being made.
     pub(super) at: BodyCheckpoint,
     pub(super) saved: BodyCheckpoint,
@@ -103,14 +106,14 @@ impl SingleBody {
             last: [first; 2],
             last_h: h,
             memories: vec![ContactPoint::default(); system.sites().len()],
-            fastest: (system.gravity().abs() * h).max(velocity.abs().max()),
             progress: Progress::new(h),
         };
         let touches = system.sites().iter().map(|site| Touch::new(site.position)).collect();
         let mut body = Self {
             mass,
             inertia,
-            turn_weight: 1.0 / (mass * (inertia.max() / mass).sqrt()),
+            turn_weights: inertia.map(|moment| 1.0 / not_too_thin(moment, inertia.max())),
+            scale: Scale::default(),
             saved: at.clone(),
             at,
             rotation: Matrix3::identity(),
@@ -135,6 +138,14 @@ impl SingleBody {
     /// Three unknowns a Newton iteration in flight, six where a point touches; no allocation.
     pub fn step(&mut self) -> Result<(), StepError> {
         make_step(self)
+    }
+
+    /// The same motion from here on, in steps of another length, as of time zero.
+    #[must_use]
+    pub fn in_steps_of(&self, h: f64) -> Self {
+        let mut other = self.clone();
+        other.at.progress = Progress::new(h);
+        other
     }
 
     /// The system.
@@ -191,7 +202,7 @@ impl SingleBody {
     }
 
     /// Angular velocity, body axes.
-    fn omega(&self) -> Vector3<f64> {
+    pub(super) fn omega(&self) -> Vector3<f64> {
         self.spin_in_body.component_div(&self.inertia)
     }
 

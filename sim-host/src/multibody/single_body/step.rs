@@ -11,6 +11,7 @@
 //! ```
 //! Without forces (1) says what `d` is, and (2) is left, in body axes, where `I` is diagonal.
 
+use super::super::scale::{Scale, away};
 use super::super::stepping::{LEAST_TURN, StepEquations};
 use super::checkpoint::Move;
 use super::simulation::SingleBody;
@@ -148,6 +149,26 @@ impl SingleBody {
     }
 }
 
+impl SingleBody {
+    /// (2) and (3) of [`crate::multibody::scale`] where a step begins.
+    fn scale(&self, h: f64) -> Scale {
+        let weight = 0.5 * h * self.system.gravity();
+        let motion = self.spin_in_body.dot(&self.omega()) + self.mass * weight * weight;
+        Scale { motion, terms: self.at.momentum.norm_squared() / self.mass }
+    }
+
+    /// What the floor adds to (3) at a trial.
+    fn felt(&self, h: f64) -> f64 {
+        let center = away(&self.at.center);
+        let mut sum = 0.0;
+        for touch in &self.touches {
+            let force = touch.force.terms(center + away(&touch.begin));
+            sum += force * force;
+        }
+        sum * (0.25 * h * h / self.mass)
+    }
+}
+
 impl StepEquations for SingleBody {
     fn progress(&self) -> &Progress {
         &self.at.progress
@@ -176,15 +197,13 @@ impl StepEquations for SingleBody {
         for touch in &mut self.touches {
             touch.begin = self.rotation * touch.arm;
         }
+        self.scale = self.scale(h);
     }
 
     fn evaluate(&mut self, h: f64) -> f64 {
         let Move { way, turn: v } = self.trial.by;
         let c = (1.0 - v.norm_squared()).max(0.0).sqrt();
         let velocity = way / h;
-        // NaN stays out, and is found in the residuals.
-        let speed = velocity.abs().max();
-        self.at.fastest = self.at.fastest.max(speed.min(self.at.fastest.max(1.0) * 2.0));
         let mut linear = velocity * self.mass - self.at.momentum;
         linear.z += 0.5 * h * self.mass * self.system.gravity();
         let iv = self.inertia.component_mul(&v);
@@ -192,8 +211,13 @@ impl StepEquations for SingleBody {
         self.trial = Trial { by: self.trial.by, c, linear, angular, touches: false };
         self.meet_floor(h);
         let Trial { linear, angular, .. } = &self.trial;
-        let (r, s) = (linear / self.mass, angular * self.turn_weight);
-        (r.norm_squared() + s.norm_squared()).sqrt() / self.at.fastest.max(f64::MIN_POSITIVE)
+        let residual = linear.norm_squared() / self.mass
+            + angular.dot(&angular.component_mul(&self.turn_weights));
+        let mut scale = self.scale;
+        if self.trial.touches {
+            scale.terms += self.felt(h);
+        }
+        scale.relative(residual)
     }
 
     fn correct(&mut self, anew: bool, h: f64) -> Result<(), usize> {
