@@ -5,7 +5,7 @@ use super::firmware::LinkError;
 use crate::plant::PlantState;
 use crate::scene::{Scene, Workspace};
 use nalgebra::Vector3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use surefoot::Real;
 use surefoot::balance::{
     self, Fault, Gains, LeggedRobot, Reference, RobotState, StopReason, WorkspaceForm, tick,
@@ -17,7 +17,7 @@ static ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
 static ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32(&biped::TREE_F32);
 
 /// Precision of the controller.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Scalar {
     /// As on the target.

@@ -11,6 +11,8 @@ pub enum Outcome {
     Balanced,
     /// Upright at the end, but not at the set point.
     Completed,
+    /// Ended before its time, by whoever followed it.
+    Interrupted,
     /// The robot fell.
     Fell,
     /// The run could not go on.

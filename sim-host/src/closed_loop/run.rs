@@ -5,10 +5,11 @@ use super::events::Watch;
 use super::memory::{memory, remember};
 use super::plant::plant;
 use super::{Commanded, Controller, Costs, CutTorques, Failure, Motors, Outcome, Sensors};
+use crate::follow::Follow;
 use crate::integrators::Progress;
 use crate::multibody::SystemError;
 use crate::plant::{Plant, PlantState, StepFailure};
-use crate::record::{Event, Sample, SavedMotion, SavedRun};
+use crate::record::{Event, MotionIdentity, Sample, SavedMotion, SavedRun};
 use crate::scene::{Scene, TorquesFrom};
 use nalgebra::Vector3;
 use std::time::{Duration, Instant};
@@ -19,7 +20,9 @@ use surefoot::spatial::Quaternion;
 pub struct Run {
     /// How it ended.
     pub outcome: Outcome,
-    /// Why, if it ended early.
+    /// Whether it was ended before its time, by whoever followed it.
+    pub is_interrupted: bool,
+    /// Why, if it failed.
     pub failure: Option<Failure>,
     /// One sample a tick, and one at the end.
     pub samples: Vec<Sample>,
@@ -45,9 +48,9 @@ pub struct Run {
 const FALLEN_HEIGHT: f64 = 0.55;
 const FALLEN_UPRIGHT: f64 = 0.5;
 
-/// Runs a scene to its end, or until it fails. `progress` is told the simulated time now and then.
-pub fn run(scene: &Scene, controller: &mut dyn Controller, progress: &mut dyn FnMut(f64)) -> Run {
-    run_from(scene, controller, None, progress)
+/// Runs a scene to its end, until it fails, or until `follow`, which hears of the simulated time now and then, ends it.
+pub fn run(scene: &Scene, controller: &mut dyn Controller, follow: &mut dyn Follow) -> Run {
+    run_from(scene, controller, None, follow)
 }
 
 /// The same from where a run has stopped, if one is given: to the same bits as if it had gone on.
@@ -55,10 +58,10 @@ pub fn run_from(
     scene: &Scene,
     controller: &mut dyn Controller,
     from: Option<&SavedRun>,
-    progress: &mut dyn FnMut(f64),
+    follow: &mut dyn Follow,
 ) -> Run {
     match plant(scene) {
-        Ok(mut plant) => run_plant(scene, plant.as_mut(), controller, from, progress),
+        Ok(mut plant) => run_plant(scene, plant.as_mut(), controller, from, follow),
         Err(failure) => ended(Run::new(), Err(step_failure(0.0, failure))),
     }
 }
@@ -69,11 +72,11 @@ pub fn run_plant(
     plant: &mut dyn Plant,
     controller: &mut dyn Controller,
     from: Option<&SavedRun>,
-    progress: &mut dyn FnMut(f64),
+    follow: &mut dyn Follow,
 ) -> Run {
     let started = Instant::now();
     let mut run = Run::new();
-    let result = advance(scene, plant, controller, (from, progress), &mut run)
+    let result = advance(scene, plant, controller, (from, follow), &mut run)
         .map_err(|failure| with_step_limit(failure, scene, plant))
         .map_err(|failure| with_hardware(failure, scene));
     run.progress = plant.progress().copied();
@@ -88,6 +91,7 @@ impl Run {
     fn new() -> Self {
         Self {
             outcome: Outcome::Completed,
+            is_interrupted: false,
             failure: None,
             samples: Vec::new(),
             events: Vec::new(),
@@ -107,6 +111,8 @@ fn ended(mut run: Run, result: Result<(), Failure>) -> Run {
     if let Err(failure) = result {
         run.outcome = if failure.kind == "fell" { Outcome::Fell } else { Outcome::Failed };
         run.failure = Some(failure);
+    } else if run.is_interrupted {
+        run.outcome = Outcome::Interrupted;
     } else if let Some(last) = run.samples.last() {
         let arrived = last.error_distance() < 1e-3 && last.error_angle() < 0.1_f64.to_radians();
         run.outcome = if arrived { Outcome::Balanced } else { Outcome::Completed };
@@ -118,7 +124,7 @@ fn advance(
     scene: &Scene,
     plant: &mut dyn Plant,
     controller: &mut dyn Controller,
-    (from, progress): (Option<&SavedRun>, &mut dyn FnMut(f64)),
+    (from, follow): (Option<&SavedRun>, &mut dyn Follow),
     run: &mut Run,
 ) -> Result<(), Failure> {
     let step = scene.integrator.step_s;
@@ -130,7 +136,10 @@ fn advance(
     let mut sensors = Sensors::new(&scene.sensing, steps_per_tick as f64 * step);
     let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize);
     let mut first = 0;
-    if let Some(SavedRun { torques_on, checkpoint, hardware, .. }) = from {
+    if let Some(SavedRun { torques_on, checkpoint, hardware, motion, .. }) = from {
+        if let Some(difference) = motion.difference(&MotionIdentity::of_robot(scene)) {
+            return Err(other_motion(&difference));
+        }
         let SavedMotion::Tree(checkpoint) = checkpoint else {
             return Err(step_failure(0.0, SystemError::OtherCheckpoint.into()));
         };
@@ -152,28 +161,32 @@ fn advance(
         touched |= watch.touched();
         let state = plant.state().map_err(|failure| step_failure(time, failure))?;
         // A run that is taken up again begins with this tick.
-        let memory = (tick == ticks).then(|| memory(scene, &sensors, &motors)).flatten();
+        let is_interrupted = tick % 25 == 0 && tick < ticks && follow.reached(time).is_break();
+        let is_last = tick == ticks || is_interrupted;
+        let memory = is_last.then(|| memory(scene, &sensors, &motors)).flatten();
         let command = command(&sensors.read(&state), controller, touched, time)?;
         motors.command(&command.torques, time);
         run.cut_torques = motors.cut();
         sample(plant, scene, &state, (&command.desired_wrench, &motors.over_step(0)), time, run)?;
         fallen(&state, time)?;
-        if tick % 25 == 0 {
-            progress(time);
-        }
-        if tick == ticks {
+        if is_last {
+            run.is_interrupted = is_interrupted;
             run.saved = plant.checkpoint().map(|checkpoint| SavedRun {
                 scene: scene.name.clone(),
+                motion: MotionIdentity::of_robot(scene),
+                scalar: None,
+                time_s: time,
                 torques_on: touched,
                 checkpoint: SavedMotion::Tree(checkpoint.clone()),
                 hardware: memory,
             });
             break;
         }
-        let push = scene.push(time);
         for number in 0..steps_per_tick as usize {
+            let begun = (first * steps_per_tick + run.steps) as f64 * step;
+            let end = (first * steps_per_tick + run.steps + 1) as f64 * step;
             plant
-                .step(step, &motors.over_step(number), push)
+                .step(step, &motors.over_step(number), scene.push(begun, end))
                 .map_err(|failure| step_failure(time, failure))?;
             run.steps += 1;
             let made = (first * steps_per_tick + run.steps) as f64 * step;
@@ -269,6 +282,15 @@ fn with_hardware(mut failure: Failure, scene: &Scene) -> Failure {
         failure.advice += "; or a shorter delay, better sensors, stronger motors, lower gains";
     }
     failure
+}
+
+fn other_motion(difference: &str) -> Failure {
+    Failure {
+        kind: "resume",
+        time_s: 0.0,
+        place: format!("the saved run is of another motion: {difference}"),
+        advice: "the scene that the run was saved with".into(),
+    }
 }
 
 fn not_at_a_tick(time_s: f64) -> Failure {

@@ -141,6 +141,7 @@ fn word(outcome: Outcome) -> Word {
     let (word, class) = match outcome {
         Outcome::Balanced => ("Balanced", "balanced"),
         Outcome::Completed => ("Completed, but not at the set point", "completed"),
+        Outcome::Interrupted => ("Interrupted", "completed"),
         Outcome::Fell => ("Fell", "fell"),
         Outcome::Failed => ("Failed", "failed"),
     };

@@ -13,6 +13,8 @@ const ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
 
 /// Most steps a run may have: a day of computing, and surely a slip of the pen beyond.
 const MOST_STEPS: f64 = 1e9;
+/// Most ticks a run may have: the record keeps 1 kB of each.
+const MOST_TICKS: f64 = 1e6;
 
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     numbers(scene)?;
@@ -31,6 +33,7 @@ pub(super) fn wrong(
 ) -> SceneError {
     SceneError::Value {
         name: scene.name.clone(),
+        line: None,
         field: field.to_owned(),
         value: format!("{value:?}"),
         expected: expected.into(),
@@ -73,10 +76,16 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
         return Err(wrong(scene, "set_point.orientation", set.orientation, expected));
     }
     for (number, push) in scene.pushes.iter().enumerate() {
-        let finite = push.force_n.iter().chain([&push.at_s]).all(|x| x.is_finite());
-        if !(finite && push.duration_s.is_finite() && push.duration_s > 0.0) {
-            let field = format!("pushes[{number}]");
-            return Err(wrong(scene, &field, push, "finite numbers, and a duration above zero"));
+        let field = |what: &str| format!("pushes[{number}].{what}");
+        if !(push.at_s.is_finite() && push.at_s >= 0.0) {
+            return Err(wrong(scene, &field("at_s"), push.at_s, "a time of zero or more"));
+        }
+        if !(push.duration_s.is_finite() && push.duration_s > 0.0) {
+            let expected = "a time above zero";
+            return Err(wrong(scene, &field("duration_s"), push.duration_s, expected));
+        }
+        if !push.force_n.iter().all(|x| x.is_finite()) {
+            return Err(wrong(scene, &field("force_n"), push.force_n, "finite numbers"));
         }
     }
     if let Workspace::BigBase(factor) = controller.workspace
@@ -145,6 +154,7 @@ fn thrown_block(scene: &Scene) -> Result<(), SceneError> {
 pub(super) fn duration_and_step(scene: &str, duration: f64, step: f64) -> Result<(), SceneError> {
     let wrong = |field: &str, value: f64, expected: String| SceneError::Value {
         name: scene.to_owned(),
+        line: None,
         field: field.to_owned(),
         value: format!("{value:?}"),
         expected,
@@ -158,6 +168,9 @@ pub(super) fn duration_and_step(scene: &str, duration: f64, step: f64) -> Result
     if duration / step > MOST_STEPS {
         let expected = format!("at most {MOST_STEPS:e} steps in {duration} s");
         return Err(wrong("integrator.step_s", step, expected));
+    }
+    if duration / step < 0.5 {
+        return Err(wrong("duration_s", duration, format!("a step of {step} s at least")));
     }
     Ok(())
 }
@@ -175,6 +188,15 @@ fn timing(scene: &Scene) -> Result<(), SceneError> {
     let steps = 1.0 / (rate * step);
     if !(rate.is_finite() && rate > 0.0) || steps < 1.0 - 1e-9 {
         let expected = format!("a rate above zero and at most one tick a step, {} Hz", 1.0 / step);
+        return Err(wrong(scene, "controller.rate_hz", rate, expected));
+    }
+    let ticks = scene.duration_s * rate;
+    if ticks < 0.5 {
+        let expected = format!("a tick of {} s at least", 1.0 / rate);
+        return Err(wrong(scene, "duration_s", scene.duration_s, expected));
+    }
+    if ticks > MOST_TICKS {
+        let expected = format!("at most {MOST_TICKS:e} ticks in {} s", scene.duration_s);
         return Err(wrong(scene, "controller.rate_hz", rate, expected));
     }
     if (steps - steps.round()).abs() > 1e-6 * steps {

@@ -50,7 +50,7 @@ impl MotionMatters {
 
 /// What moves, and from where.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Mechanism {
     /// A free rigid body in unit quaternions.
     RigidBody {
@@ -166,7 +166,7 @@ impl MechanismScene {
         expected: String,
     ) -> SceneError {
         let (name, field) = (self.name.clone(), field.to_owned());
-        SceneError::Value { name, field, value: format!("{value:?}"), expected }
+        SceneError::Value { name, line: None, field, value: format!("{value:?}"), expected }
     }
 }
 
