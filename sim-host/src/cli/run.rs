@@ -91,14 +91,25 @@ impl Options {
         Ok(Some(saved))
     }
 
-    /// Writes where a run stopped, if that was asked for.
+    /// Refuses `--save` of what cannot be taken up again.
+    pub(super) fn check_save(&self, can_be_saved: bool) -> Result<(), String> {
+        if self.save.is_none() || can_be_saved {
+            return Ok(());
+        }
+        let what =
+            "--save: only runs of bodies and joints under the method variational can be saved";
+        Err(what.to_owned())
+    }
+
+    /// Writes where a run stopped, if that is wanted; a run that failed has no such place.
     pub(super) fn write_saved(&self, saved: Option<&SavedRun>) -> Result<(), String> {
         match (&self.save, saved) {
             (None, _) => Ok(()),
             (Some(path), Some(saved)) => saved.write(path),
-            (Some(_), None) => Err("--save: only runs of bodies and joints under the method \
-                                    variational, which have not failed, can be saved"
-                .to_owned()),
+            (Some(path), None) => {
+                complain(format_args!("not saved to {}: the run has failed", path.display()));
+                Ok(())
+            }
         }
     }
 
@@ -131,18 +142,25 @@ fn run_robot(scene: Scene, options: &Options) -> Result<ExitCode, String> {
     }
     let folder = options.folder(&scene.name, saved.as_ref());
     keeps_record(&folder, saved.as_ref())?;
+    options.check_save(scene.integrator.name == Method::Variational)?;
     let warnings = scene.warnings();
     warn(&warnings);
+    // Not after the run, which would be lost.
+    made(&folder)?;
     let mut run = simulate(&scene, options, saved.as_ref())?;
     if let Some(saved) = &mut run.saved {
         saved.scalar = Some(scalar);
     }
     // A run that goes on has no first instant.
-    let other = match other_reading(&scene).filter(|_| saved.is_none() && !run.is_interrupted) {
+    let mut is_interrupted = run.is_interrupted;
+    let other = match other_reading(&scene).filter(|_| saved.is_none() && !is_interrupted) {
         None => None,
-        Some(scene) => Some((scene.controller.torques_from, simulate(&scene, options, None)?)),
+        Some(scene) => {
+            let other = simulate(&scene, options, None)?;
+            is_interrupted = other.is_interrupted;
+            (!is_interrupted).then_some((scene.controller.torques_from, other))
+        }
     };
-    options.write_saved(run.saved.as_ref())?;
     let report = Report {
         scene: &scene,
         reason: &reason,
@@ -153,9 +171,10 @@ fn run_robot(scene: Scene, options: &Options) -> Result<ExitCode, String> {
         other: other.as_ref(),
     };
     let files = write_files(&folder, &report)?;
+    options.write_saved(run.saved.as_ref())?;
     let failed = run.failure.as_ref().map(|f| format!("failed at {:.4} s: {}", f.time_s, f.place));
     let reached = run.samples.last().map_or(0.0, |last| last.time_s);
-    let status = ended(failed, run.is_interrupted.then_some(reached));
+    let status = ended(failed, is_interrupted.then_some(reached));
     if options.json {
         return Ok(say(&format!("{:#}\n", report::json(&report, &files)), status));
     }
@@ -270,17 +289,21 @@ pub(super) fn bar(scene: &str, duration_s: f64) -> ProgressBar {
     bar
 }
 
-/// Makes the folder, and takes it for oneself as far as the system can: files of two runs at once do not mix.
-pub(super) fn taken(folder: &Path) -> Result<Option<File>, String> {
-    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    // Systems that cannot open or lock folders are left with whole files of either run.
-    Ok(File::open(folder).ok().filter(|folder| folder.lock().is_ok()))
+/// Makes the folder.
+pub(super) fn made(folder: &Path) -> Result<(), String> {
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))
+}
+
+/// Takes the folder for oneself, as far as the system can, so that files of two runs at once do not mix. Systems that
+/// cannot open or lock folders are left with whole files of either run.
+pub(super) fn taken(folder: &Path) -> Option<File> {
+    File::open(folder).ok().filter(|folder| folder.lock().is_ok())
 }
 
 /// The report, the record in both forms, and the figures.
 fn write_files(folder: &Path, report: &Report<'_>) -> Result<Vec<PathBuf>, String> {
     let Report { scene, run, .. } = report;
-    let _taken = taken(folder)?;
+    let _taken = taken(folder);
     let named = |name: &str| folder.join(name);
     let (record, mcap, page_file) =
         (named("record.csv"), named("record.mcap"), named("report.html"));

@@ -2,13 +2,14 @@
 
 use super::model::ModelName;
 use super::report::{SHOWN_EVENTS, other_end};
-use super::run::{Options, bar, ended, keeps_record, taken, warn};
+use super::run::{Options, bar, ended, keeps_record, made, taken, warn};
 use super::{bad_input, interrupt, recommended, say};
 use crate::chart::write_mechanism_chart;
 use crate::follow::Until;
+use crate::integrators::Method;
 use crate::mechanism::{ChosenModel, MechanismRun, run_model};
 use crate::record::write_mechanism_csv;
-use crate::scene::MechanismScene;
+use crate::scene::{Mechanism, MechanismScene};
 use crate::stability::FailureKind;
 use crate::written::write_whole;
 use serde_json::{Value, json};
@@ -30,16 +31,21 @@ fn run_to_its_end(scene: MechanismScene, options: &Options) -> Result<ExitCode, 
     let folder = options.folder(&scene.name, saved.as_ref());
     keeps_record(&folder, saved.as_ref())?;
     let wanted = options.model.map_or(Ok(None), ModelName::of_mechanism)?;
+    let of_bodies =
+        !matches!(scene.mechanism, Mechanism::RigidBody { .. } | Mechanism::Pendulum { .. });
+    options.check_save(of_bodies && scene.integrator.name == Method::Variational)?;
     let warnings = scene.warnings();
     warn(&warnings);
+    // Not after the run, which would be lost.
+    made(&folder)?;
     let bar = bar(&scene.name, scene.duration_s);
     let follower = |time: f64| bar.set_position((time * 1e3) as u64);
     let mut follow = Until { stop: interrupt::watched(), follower };
     let run = run_model(&scene, wanted, saved.as_ref(), &mut follow);
     bar.finish_and_clear();
     let run = run.map_err(|error| format!("{}: {error}", scene.name))?;
-    options.write_saved(run.saved.as_ref())?;
     let files = write_files(&folder, &scene, &run)?;
+    options.write_saved(run.saved.as_ref())?;
     let failed = run.failure.as_ref().map(|f| format!("failed at {:.4} s: {f}", f.time_s));
     let status = ended(failed, run.is_interrupted.then_some(run.progress.time_s));
     if options.json {
@@ -73,7 +79,7 @@ fn write_files(
     scene: &MechanismScene,
     run: &MechanismRun,
 ) -> Result<Vec<PathBuf>, String> {
-    let _taken = taken(folder)?;
+    let _taken = taken(folder);
     let record = folder.join("record.csv");
     write_whole(&record, |to| write_mechanism_csv(&scene.mechanism, &run.samples, to))?;
     let chart = write_mechanism_chart(folder, &scene.name, &scene.mechanism, &run.samples)

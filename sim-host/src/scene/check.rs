@@ -253,7 +253,7 @@ mod tests {
         let text = BUILT_IN.iter().find(|scene| scene.name == "experiment-2").expect("there").text;
         for (from, to, words) in [
             ("mass_kg = 1.8", "mass_kg = 0.0", ["block.mass_kg", "above zero"]),
-            ("size_m = [0.08, 0.08", "size_m = [nan, 0.08", ["block.size_m", "above zero"]),
+            ("size_m = [0.08, 0.08", "size_m = [nan, 0.08", ["block.size_m[0] = nan", "finite"]),
             ("[-4.5, 0.0, 0.2]", "[inf, 0.0, 0.2]", ["block.velocity_mps", "finite"]),
             ("[0.50, 0.10, 1.20]", "[0.10, 0.10, 1.20]", ["block.position_m", "outside"]),
             ("[0.50, 0.10, 1.20]", "[0.50, 0.10, 0.02]", ["block.position_m", "above the floor"]),
@@ -275,9 +275,9 @@ mod tests {
         let text = BUILT_IN[0].text;
         for (from, to, words) in [
             ("step_s = 2e-3", "step_s = -1e-3", ["integrator.step_s", "above zero"]),
-            ("step_s = 2e-3", "step_s = nan", ["integrator.step_s", "above zero"]),
+            ("step_s = 2e-3", "step_s = nan", ["test:8: integrator.step_s = nan", "finite"]),
             ("step_s = 2e-3", "step_s = 1e-14", ["integrator.step_s", "at most"]),
-            ("duration_s = 3.0", "duration_s = inf", ["duration_s", "above zero"]),
+            ("duration_s = 3.0", "duration_s = inf", ["duration_s", "finite"]),
             ("rate_hz = 500.0", "rate_hz = 0.0", ["controller.rate_hz", "above zero"]),
             ("rate_hz = 500.0", "rate_hz = 30000.0", ["controller.rate_hz", "one tick a step"]),
             ("rate_hz = 500.0", "rate_hz = 333.0", ["controller.rate_hz", "whole number"]),
@@ -302,7 +302,7 @@ mod tests {
             ("workspace = \"fixed-foot\"", "workspace = { big-base = 0.0 }", ["big-base", "1e6"]),
             ("outline = \"A\"", "outline = \"B\"", ["expected one of", "`M`"]),
             ("rate_hz = 500.0", "rate_hz = 500.0\nspeed = 3", ["unknown field", "`speed`"]),
-            ("duration_s = 3.0", "duration_s = \"long\"", ["line 4", "f64"]),
+            ("duration_s = 3.0", "duration_s = \"long\"", ["test:4: duration_s", "f64"]),
         ] {
             assert!(text.contains(from), "{from}");
             let error = parse("test", &text.replacen(from, to, 1)).expect_err(to).to_string();

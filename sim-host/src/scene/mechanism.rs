@@ -144,6 +144,9 @@ impl MechanismScene {
     /// [`SceneError::Value`] for a mechanism without links, or more than there may be.
     pub fn with_links(mut self, number: usize) -> Result<Self, SceneError> {
         match &mut self.mechanism {
+            Mechanism::Pendulum { .. } if !(1..=MOST_LINKS).contains(&number) => {
+                return Err(self.wrong("--links", number, format!("1 to {MOST_LINKS} links")));
+            }
             Mechanism::Pendulum { links, .. } => {
                 if let Some(last) = links.last().copied() {
                     links.resize(number, last);

@@ -1,6 +1,7 @@
 //! A scene's text, with the places of its fields, so that an error can name the line.
 
 use super::SceneError;
+use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -49,7 +50,7 @@ impl<'a> Source<'a> {
     /// [`SceneError::Value`] of the first one.
     pub fn check_numbers(&self) -> Result<(), SceneError> {
         let mut bad = None;
-        each(self.root.get_ref(), "", &mut |path, value| {
+        each(self.root.get_ref(), "", &mut |path, _, value| {
             if let DeValue::Float(number) = value.get_ref()
                 && bad.is_none()
                 // What cannot be parsed is too large for any.
@@ -69,7 +70,7 @@ impl<'a> Source<'a> {
         let SceneError::Value { field, value, expected, .. } = error else { return error };
         let mut nearest = ("", self.root.span().start);
         let mut written = None;
-        each(self.root.get_ref(), "", &mut |path, found| {
+        each(self.root.get_ref(), "", &mut |path, _, found| {
             if path == field {
                 written = self.written(found);
             }
@@ -77,7 +78,7 @@ impl<'a> Source<'a> {
                 nearest = (&field[..path.len()], found.span().start);
             }
         });
-        let value = written.map_or(value, |text| shortened(text));
+        let value = written.map_or(value, shortened);
         let line = Some(line_of(self.text, nearest.1));
         SceneError::Value { name: self.place.to_owned(), line, field, value, expected }
     }
@@ -86,8 +87,9 @@ impl<'a> Source<'a> {
     pub fn syntax(&self, error: &toml::de::Error) -> SceneError {
         let span = error.span().unwrap_or(0..0);
         let (mut path_there, mut length) = (String::new(), usize::MAX);
-        each(self.root.get_ref(), "", &mut |path, value| {
-            let around = value.span();
+        each(self.root.get_ref(), "", &mut |path, key, value| {
+            // An unknown field is at its key.
+            let around = if key == span { key } else { value.span() };
             if around.start <= span.start && span.end <= around.end && around.len() <= length {
                 path.clone_into(&mut path_there);
                 length = around.len();
@@ -118,29 +120,29 @@ impl<'a> Source<'a> {
     }
 }
 
+/// Takes a value with its path and the span of its key, which entries of lists have not.
+type Visit<'v, 't, 'a> = dyn FnMut(&str, Range<usize>, &'t Spanned<DeValue<'a>>) + 'v;
+
 /// Visits all values below a table, outer ones first, with their paths: `a.b[2].c`.
-fn each<'t, 'a>(
-    table: &'t DeTable<'a>,
-    path: &str,
-    visit: &mut dyn FnMut(&str, &'t Spanned<DeValue<'a>>),
-) {
+fn each<'t, 'a>(table: &'t DeTable<'a>, path: &str, visit: &mut Visit<'_, 't, 'a>) {
     for (key, value) in table.iter() {
         let dot = if path.is_empty() { "" } else { "." };
-        each_below(value, &format!("{path}{dot}{}", key.get_ref()), visit);
+        each_below(value, key.span(), &format!("{path}{dot}{}", key.get_ref()), visit);
     }
 }
 
 fn each_below<'t, 'a>(
     value: &'t Spanned<DeValue<'a>>,
+    key: Range<usize>,
     path: &str,
-    visit: &mut dyn FnMut(&str, &'t Spanned<DeValue<'a>>),
+    visit: &mut Visit<'_, 't, 'a>,
 ) {
-    visit(path, value);
+    visit(path, key, value);
     match value.get_ref() {
         DeValue::Table(table) => each(table, path, visit),
         DeValue::Array(items) => {
             for (k, item) in items.iter().enumerate() {
-                each_below(item, &format!("{path}[{k}]"), visit);
+                each_below(item, 0..0, &format!("{path}[{k}]"), visit);
             }
         }
         _ => {}
