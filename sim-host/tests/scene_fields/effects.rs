@@ -34,7 +34,9 @@ fn others(path: &Path, value: &Value) -> Vec<Value> {
             .filter(|other| other != x)
             .map(Value::Float)
             .collect(),
-        Value::Integer(i) => [i + 1, i / 50, -i, 0].into_iter().map(Value::Integer).collect(),
+        Value::Integer(i) => {
+            [i + 1, i / 50, -i, 0, 30 * i].into_iter().map(Value::Integer).collect()
+        }
         Value::Boolean(b) => vec![Value::Boolean(!b)],
         Value::String(_) if field(path) == "workspace" => {
             vec![Value::Table([("big-base".to_owned(), Value::Float(2.0))].into_iter().collect())]
