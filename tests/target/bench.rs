@@ -96,8 +96,10 @@ impl Bench {
             std::array::from_fn(|i| f64::from(if i < 6 { left[i] } else { right[i - 6] }));
         let step = self.scene.integrator.step_s;
         let steps = (1.0 / (self.scene.controller.rate_hz * step)).round() as usize;
-        for _ in 0..steps {
-            self.plant.step(step, &self.torques, self.scene.push(self.time)).expect("a motion");
+        for number in 0..steps {
+            let begun = self.time + number as f64 * step;
+            let push = self.scene.push(begun, begun + step);
+            self.plant.step(step, &self.torques, push).expect("a motion");
         }
         self.time += 1.0 / self.scene.controller.rate_hz;
     }

@@ -1,5 +1,6 @@
 //! How all charts look.
 
+use crate::written::write_text;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::path::Path;
@@ -20,7 +21,7 @@ impl ChartError {
 
 /// Writes a drawing to a file.
 pub(super) fn write(path: &Path, svg: &str) -> Result<(), ChartError> {
-    std::fs::write(path, svg).map_err(|error| ChartError::new(path.display(), &error))
+    write_text(path, svg).map_err(|reason| ChartError { chart: path.display().to_string(), reason })
 }
 
 pub(super) type Painted = Result<(), Box<dyn std::error::Error>>;

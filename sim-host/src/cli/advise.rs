@@ -1,7 +1,7 @@
 //! `surefoot advise`
 
 use super::recommended::ACCURACY;
-use super::{RUN_FAILED, bad_input, say};
+use super::{RUN_FAILED, bad_input, complain, say};
 use crate::precision::{
     Advice, AdviceError, Among, Choice, Effort, Problem, STEP_MARGIN, advise as advised, cost, step,
 };
@@ -46,8 +46,8 @@ pub fn advise(options: &Options) -> ExitCode {
     match advice {
         Ok(advice) => {
             let document = serde_json::json!({ "advice": advice });
-            say(&if options.json { format!("{document:#}\n") } else { text(&advice) });
-            ExitCode::SUCCESS
+            let text = if options.json { format!("{document:#}\n") } else { text(&advice) };
+            say(&text, ExitCode::SUCCESS)
         }
         Err(error) => none(&error, options.json),
     }
@@ -71,12 +71,13 @@ fn open_for(options: &Options) -> Result<Problem, String> {
 }
 
 fn none(error: &AdviceError, json: bool) -> ExitCode {
-    if json {
-        let failure = serde_json::json!({ "kind": "no-advice", "message": error.to_string() });
-        say(&format!("{:#}\n", serde_json::json!({ "failure": failure })));
+    complain(format_args!("no advice: {error}"));
+    let status = ExitCode::from(RUN_FAILED);
+    if !json {
+        return status;
     }
-    eprintln!("no advice: {error}");
-    ExitCode::from(RUN_FAILED)
+    let failure = serde_json::json!({ "kind": "no-advice", "message": error.to_string() });
+    say(&format!("{:#}\n", serde_json::json!({ "failure": failure })), status)
 }
 
 fn text(advice: &Advice) -> String {

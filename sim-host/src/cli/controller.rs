@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 /// Options of `run` about the controller.
 #[derive(Debug, Args)]
 pub struct ControllerOptions {
-    /// Precision of the controller on the host; the target's is f32
-    #[arg(long, value_enum, default_value = "f64")]
-    scalar: Scalar,
+    /// Precision of the controller on the host (default: f64); the target's is f32
+    #[arg(long, value_enum)]
+    scalar: Option<Scalar>,
     /// Where the controller runs
     #[arg(long = "controller", value_enum, default_value = "host")]
     pub place: Place,
@@ -44,7 +44,7 @@ impl ControllerOptions {
     /// Whether anything differs from what is assumed.
     pub fn was_chosen(&self) -> bool {
         self.place != Place::Host
-            || self.scalar != Scalar::F64
+            || self.scalar.is_some()
             || self.firmware.is_some()
             || self.port.is_some()
     }
@@ -52,16 +52,32 @@ impl ControllerOptions {
     /// The precision in effect.
     pub fn scalar(&self) -> Scalar {
         match self.place {
-            Place::Host | Place::Bare => self.scalar,
+            Place::Host | Place::Bare => self.scalar.unwrap_or(Scalar::F64),
             Place::Firmware => Scalar::F32,
         }
+    }
+
+    /// Refuses options that the controller in effect would ignore.
+    pub fn check(&self) -> Result<(), String> {
+        let idle = match self.place {
+            Place::Host | Place::Bare if self.port.is_some() => Some("--port"),
+            Place::Host | Place::Bare if self.firmware.is_some() => Some("--firmware"),
+            _ => None,
+        };
+        if let Some(option) = idle {
+            return Err(format!("{option}: only with --controller firmware"));
+        }
+        if self.place == Place::Firmware && self.scalar == Some(Scalar::F64) {
+            return Err("--scalar f64: the target's controller is in f32".to_owned());
+        }
+        Ok(())
     }
 
     /// A controller for a scene, ready for its first tick.
     pub fn controller(&self, scene: &Scene) -> Result<Box<dyn Controller>, LinkError> {
         match self.place {
-            Place::Host => return Ok(closed_loop::controller(scene, self.scalar)),
-            Place::Bare => return Ok(closed_loop::bare_controller(scene, self.scalar)),
+            Place::Host => return Ok(closed_loop::controller(scene, self.scalar())),
+            Place::Bare => return Ok(closed_loop::bare_controller(scene, self.scalar())),
             Place::Firmware => {}
         }
         let target = match &self.port {

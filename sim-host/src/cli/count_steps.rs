@@ -1,6 +1,6 @@
 //! `surefoot count-steps`: what `chart parsimony` runs under callgrind.
 
-use super::{RUN_FAILED, bad_input};
+use super::{RUN_FAILED, bad_input, complain};
 use crate::parsimony::{MechanismRung, PlayFailure, Played, Rung};
 use crate::scene::{AnyScene, open};
 use clap::{Parser, ValueEnum};
@@ -27,7 +27,7 @@ pub fn count_steps(options: &Options) -> ExitCode {
         Err(message) => bad_input(&message, false),
         Ok(Ok(_)) => ExitCode::SUCCESS,
         Ok(Err(failure)) => {
-            eprintln!("failed: {failure}");
+            complain(format_args!("failed: {failure}"));
             ExitCode::from(RUN_FAILED)
         }
     }

@@ -56,6 +56,5 @@ pub fn list(options: &Options) -> ExitCode {
             }
         }
     }
-    say(&text);
-    ExitCode::SUCCESS
+    say(&text, ExitCode::SUCCESS)
 }

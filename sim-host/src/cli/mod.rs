@@ -1,15 +1,18 @@
 //! The command line of `surefoot`.
 //!
-//! Results go to stdout, progress and messages to stderr. Exit status: 0 done, 1 the run failed for
-//! a stated reason, 2 bad usage or input.
+//! Results go to stdout, progress and messages to stderr. Exit status: 0 done; 1 the run failed for a stated reason, or
+//! stdout could not be written; 2 bad usage or input, or a file that cannot be written; 130 interrupted, with what there
+//! is kept; 141 the reader of stdout has gone away.
 
 mod advise;
 mod chart;
 mod controller;
 mod count_steps;
 mod count_ticks;
+mod interrupt;
 mod list;
 mod model;
+mod output;
 mod recommended;
 mod report;
 mod reproduce;
@@ -17,6 +20,7 @@ mod run;
 mod run_mechanism;
 
 use clap::{Parser, Subcommand};
+use output::{complain, print, say};
 use std::process::ExitCode;
 
 /// Balance control for articulated robots: simulate, close the loop, look.
@@ -54,8 +58,15 @@ const RUN_FAILED: u8 = 1;
 
 /// Parses the command line and does what it says.
 pub fn main() -> ExitCode {
-    // clap answers bad usage itself, on stderr and with status 2.
-    match Cli::parse().command {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        // Bad usage, on stderr and with status 2; or help, on stdout.
+        Err(answer) => {
+            let status = ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or(BAD_INPUT));
+            return answer.print().map_or_else(|error| output::lost(&error), |()| status);
+        }
+    };
+    match cli.command {
         None => run::run(&run::Options::parse_from(["run"])),
         Some(Command::Run(options)) => run::run(&options),
         Some(Command::Reproduce(options)) => reproduce::reproduce(&options),
@@ -67,19 +78,13 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Writes to stdout; a reader that has gone away (`| head`) is no error of ours.
-fn say(text: &str) {
-    use std::io::Write;
-    let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-}
-
 /// Reports bad input.
 fn bad_input(message: &str, json: bool) -> ExitCode {
     if json {
         let document = serde_json::json!({ "error": { "kind": "bad-input", "message": message } });
-        say(&format!("{document:#}\n"));
+        // The status says the same, whoever reads this.
+        let _ = print(&format!("{document:#}\n"));
     }
-    eprintln!("error: {message}");
+    complain(format_args!("error: {message}"));
     ExitCode::from(BAD_INPUT)
 }

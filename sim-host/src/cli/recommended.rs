@@ -1,7 +1,8 @@
 //! Which method and step a run takes, and why: those of the command line, else the recommended ones.
 
 use super::run::Options;
-use crate::precision::{Advice, Among, Effort, Problem, advise};
+use crate::mechanism::start;
+use crate::precision::{Advice, Among, Effort, Problem, STEP_MARGIN, advise};
 use crate::scene::{AnyScene, Integrator, MechanismScene, Scene};
 use indicatif::ProgressBar;
 use std::time::Duration;
@@ -28,7 +29,29 @@ pub(super) fn of_mechanism(
         None => "named by the scene".to_owned(),
     };
     let whole = AnyScene::Mechanism(scene.clone());
-    chosen(&whole, &mut scene.integrator, asked, options, own)
+    let of_scene = scene.integrator;
+    let reason = chosen(&whole, &mut scene.integrator, asked, options, own)?;
+    let other_method = scene.integrator.name != of_scene.name;
+    if !(other_method && options.step.is_none() && asked.is_none()) {
+        return Ok(reason);
+    }
+    Ok(shortened(scene).unwrap_or(reason))
+}
+
+/// Shortens the scene's step, which is that of another method, to what this one can make, if it is known to be longer.
+/// Gives the reason. What cannot be started is refused later, by its name.
+fn shortened(scene: &mut MechanismScene) -> Option<String> {
+    let longest = start(scene).ok()?.forecast_s()?;
+    let most = STEP_MARGIN * longest;
+    if !(scene.integrator.step_s > most) {
+        return None;
+    }
+    // A whole number of them.
+    scene.integrator.step_s = scene.duration_s / (scene.duration_s / most).ceil();
+    Some(format!(
+        "method named on the command line; the scene's step is another method's: this is {STEP_MARGIN} of the longest \
+         one predicted for this one, {longest:.2e} s"
+    ))
 }
 
 /// The same of a robot.

@@ -15,6 +15,8 @@ pub struct Report<'a> {
     pub scene: &'a Scene,
     /// Why it has this method and this step.
     pub reason: &'a str,
+    /// What the user should know of the scene.
+    pub warnings: &'a [String],
     /// Precision of the controller.
     pub scalar: Scalar,
     /// Where the controller ran.
@@ -37,6 +39,17 @@ impl<'a> Report<'a> {
         };
         crate::report::Report { scene: self.scene, controller, run: self.run, other: self.other }
     }
+}
+
+/// The time of the record's last row, s.
+fn reached(run: &Run) -> f64 {
+    run.samples.last().map_or(0.0, |last| last.time_s)
+}
+
+/// Says so where a run ends at another time than its scene's, by more than round-off.
+pub(super) fn other_end(wanted_s: f64, reached_s: f64, h: f64, what: &str) -> Option<String> {
+    ((wanted_s - reached_s).abs() > 1e-9 * wanted_s)
+        .then(|| format!("ended at {reached_s:.6} s, not at {wanted_s} s, in {what} of {h} s"))
 }
 
 /// Unknowns of a step: velocities, and constraints beside the tree; none where there is no plant.
@@ -74,6 +87,7 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
         Outcome::Balanced => "BALANCED",
         Outcome::Completed => "COMPLETED, but not at the set point",
         Outcome::Stopped => "STOPPED by its supervisor",
+        Outcome::Interrupted => "INTERRUPTED",
         Outcome::Fell => "FELL",
         Outcome::Failed => "FAILED",
     };
@@ -82,6 +96,13 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
     if let Some(failure) = &run.failure {
         writeln!(out, "  at {:.4} s: {}", failure.time_s, failure.place)?;
         writeln!(out, "  advice: {}", failure.advice)?;
+    }
+    let tick = 1.0 / scene.controller.rate_hz;
+    if let Some(line) = other_end(scene.duration_s, reached(run), tick, "ticks") {
+        writeln!(out, "  {line}")?;
+    }
+    for warning in report.warnings {
+        writeln!(out, "  warning: {warning}")?;
     }
     let per_step = run.wall.as_secs_f64() * 1e6 / run.steps.max(1) as f64;
     writeln!(
@@ -168,7 +189,7 @@ pub fn percent(difference: Option<f64>) -> String {
 
 /// The document of `--json`. Keys that have no meaning for a plant are null.
 pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
-    let Report { scene, scalar, controller, run, other, reason } = report;
+    let Report { scene, scalar, controller, run, other, reason, warnings } = report;
     let peaks = Peaks::of(&run.samples);
     let last = run.samples.last();
     let peak_torque = peaks.map(|peaks| {
@@ -187,7 +208,9 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "integrator": scene.integrator.name,
         "step_s": scene.integrator.step_s,
         "integrator_reason": reason,
-        "duration_s": scene.duration_s,
+        "duration_s": reached(run),
+        "requested_duration_s": scene.duration_s,
+        "warnings": warnings,
         "scalar": scalar,
         "controller": controller,
         "target": run.costs,

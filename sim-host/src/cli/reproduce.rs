@@ -1,11 +1,12 @@
 //! `surefoot reproduce`
 
 use super::report::percent;
-use super::{RUN_FAILED, bad_input, say};
+use super::{RUN_FAILED, bad_input, complain, print};
 use crate::experiments::robot_figures::{
     EXPERIMENT_1, EXPERIMENT_2, READING, RobotFigure, experiment_1_figures, experiment_2_figures,
 };
 use crate::experiments::{Comparison, Figure, box_drop, double_pendulum, free_body};
+use crate::written::write_text;
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
 use indicatif::ProgressBar;
@@ -71,7 +72,7 @@ pub fn reproduce(options: &Options) -> ExitCode {
         match made {
             Ok(made) => items.extend(made.into_iter().filter(|item| wanted(item.name))),
             Err(error) => {
-                eprintln!("error: {}: {error}", names[0]);
+                complain(format_args!("error: {}: {error}", names[0]));
                 return ExitCode::from(RUN_FAILED);
             }
         }
@@ -87,7 +88,9 @@ pub fn reproduce(options: &Options) -> ExitCode {
             documents
                 .push(json!({ "figure": name, "reading": reading, "rows": rows, "file": file }));
         } else {
-            say(&item.text(file.as_deref()));
+            if let Err(status) = print(&item.text(file.as_deref())) {
+                return status;
+            }
         }
     }
     if options.json {
@@ -95,12 +98,16 @@ pub fn reproduce(options: &Options) -> ExitCode {
             1 => documents.remove(0),
             _ => json!(documents),
         };
-        say(&format!("{document:#}\n"));
+        if let Err(status) = print(&format!("{document:#}\n")) {
+            return status;
+        }
     }
     let missed = items.iter().flat_map(|item| &item.rows).filter(|row| row.met == Some(false));
     match missed.count() {
         0 => {}
-        missed => eprintln!("{missed} rows are farther from the printed figure than asked for"),
+        missed => complain(format_args!(
+            "{missed} rows are farther from the printed figure than required"
+        )),
     }
     ExitCode::SUCCESS
 }
@@ -131,9 +138,8 @@ impl Item {
     fn draw(&self, folder: &Path) -> Result<Option<PathBuf>, String> {
         let Some(svg) = &self.svg else { return Ok(None) };
         let path = folder.join(format!("{}.svg", self.name));
-        std::fs::create_dir_all(folder)
-            .and_then(|()| std::fs::write(&path, svg))
-            .map_err(|error| format!("{}: {error}", path.display()))?;
+        std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", path.display()))?;
+        write_text(&path, svg)?;
         Ok(Some(path))
     }
 

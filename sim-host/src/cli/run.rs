@@ -1,19 +1,23 @@
 //! `surefoot run`
 
 use super::controller::{ControllerOptions, Place};
+use super::interrupt::{self, INTERRUPTED};
 use super::model::ModelName;
 use super::report::{self, Report};
 use super::run_mechanism::run_mechanism;
-use super::{RUN_FAILED, bad_input, recommended, say};
+use super::{RUN_FAILED, bad_input, complain, recommended, say};
 use crate::chart::RUN_FIGURES;
-use crate::closed_loop::{self, Run};
+use crate::closed_loop::{self, Run, Scalar};
+use crate::follow::Until;
 use crate::integrators::Method;
 use crate::picture::Shown;
-use crate::record::{SavedRun, write_csv, write_mcap};
+use crate::record::{MotionIdentity, SavedRun, write_csv, write_mcap};
 use crate::report::page;
 use crate::scene::{AnyScene, Feet, Scene, TorquesFrom, open};
+use crate::written::{write_text, write_whole};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -47,7 +51,7 @@ pub struct Options {
     /// How much is modelled, instead of what the scene says or bears
     #[arg(long, value_enum)]
     pub(super) model: Option<ModelName>,
-    /// Where the record and the charts go (default: out/SCENE)
+    /// Where the record and the charts go (default: out/SCENE, or out/SCENE-from-TIME-s with --resume)
     #[arg(long)]
     out: Option<PathBuf>,
     /// Where to write the state at the end, to go on from
@@ -62,24 +66,50 @@ pub struct Options {
 }
 
 impl Options {
-    pub(super) fn folder(&self, scene: &str) -> PathBuf {
-        self.out.clone().unwrap_or_else(|| Path::new("out").join(scene))
+    /// Where the files go: what a run leaves that goes on from another one stands beside what that one left.
+    pub(super) fn folder(&self, scene: &str, from: Option<&SavedRun>) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| {
+            let out = Path::new("out");
+            match from {
+                None => out.join(scene),
+                Some(saved) => out.join(format!("{scene}-from-{}-s", saved.time_s)),
+            }
+        })
     }
 
-    /// The run to go on from, if one was named.
-    pub(super) fn saved(&self, scene: &str) -> Result<Option<SavedRun>, String> {
-        let read = |path: &PathBuf| SavedRun::read(path)?.of_scene(scene);
-        self.resume.as_ref().map(read).transpose()
+    /// The run to go on from, if one was named; not one that has been where this one ends.
+    pub(super) fn saved(&self, duration_s: f64) -> Result<Option<SavedRun>, String> {
+        let Some(path) = &self.resume else { return Ok(None) };
+        let saved = SavedRun::read(path)?;
+        if saved.time_s >= duration_s {
+            return Err(format!(
+                "--resume {}: it has reached {} s, and this run would end at {duration_s} s: --duration must be longer",
+                path.display(),
+                saved.time_s,
+            ));
+        }
+        Ok(Some(saved))
     }
 
-    /// Writes where a run stopped, if that was asked for.
+    /// Refuses `--save` of what cannot be taken up again.
+    pub(super) fn check_save(&self, can_be_saved: bool) -> Result<(), String> {
+        if self.save.is_none() || can_be_saved {
+            return Ok(());
+        }
+        let what =
+            "--save: only runs of bodies and joints under the method variational can be saved";
+        Err(what.to_owned())
+    }
+
+    /// Writes where a run stopped, if that is wanted; a run that failed has no such place.
     pub(super) fn write_saved(&self, saved: Option<&SavedRun>) -> Result<(), String> {
         match (&self.save, saved) {
             (None, _) => Ok(()),
             (Some(path), Some(saved)) => saved.write(path),
-            (Some(_), None) => Err("--save: only runs of bodies and joints under the method \
-                                    variational, which have not failed, can be saved"
-                .to_owned()),
+            (Some(path), None) => {
+                complain(format_args!("not saved to {}: the run has failed", path.display()));
+                Ok(())
+            }
         }
     }
 
@@ -96,51 +126,114 @@ pub fn run(options: &Options) -> ExitCode {
         Ok(AnyScene::Mechanism(scene)) => return run_mechanism(scene, options),
         Err(error) => return bad_input(&error.to_string(), options.json),
     };
-    let (scene, reason) = match with_options(scene, options) {
-        Ok(chosen) => chosen,
-        Err(message) => return bad_input(&message, options.json),
-    };
-    let run = match simulate(&scene, options) {
-        Ok(run) => run,
-        Err(message) => return bad_input(&message, options.json),
-    };
-    // A run that goes on has no first instant.
-    let other = match other_reading(&scene)
-        .filter(|_| options.resume.is_none())
-        .map(|scene| simulate(&scene, options).map(|run| (scene.controller.torques_from, run)))
-    {
-        None => None,
-        Some(Ok(other)) => Some(other),
-        Some(Err(message)) => return bad_input(&message, options.json),
-    };
-
-    if let Err(message) = options.write_saved(run.saved.as_ref()) {
-        return bad_input(&message, options.json);
+    match run_robot(scene, options) {
+        Ok(status) => status,
+        Err(message) => bad_input(&message, options.json),
     }
+}
+
+fn run_robot(scene: Scene, options: &Options) -> Result<ExitCode, String> {
+    options.controller.check()?;
+    let (scene, reason) = with_options(scene, options)?;
+    let scalar = options.controller.scalar();
+    let saved = options.saved(scene.duration_s)?;
+    if let Some(saved) = &saved {
+        belongs(saved, &scene, scalar)?;
+    }
+    let folder = options.folder(&scene.name, saved.as_ref());
+    keeps_record(&folder, saved.as_ref())?;
+    options.check_save(scene.integrator.name == Method::Variational)?;
+    let warnings = scene.warnings();
+    warn(&warnings);
+    // Not after the run, which would be lost.
+    made(&folder)?;
+    let mut run = simulate(&scene, options, saved.as_ref())?;
+    if let Some(saved) = &mut run.saved {
+        saved.scalar = Some(scalar);
+    }
+    // A run that goes on has no first instant.
+    let mut is_interrupted = run.is_interrupted;
+    let other = match other_reading(&scene).filter(|_| saved.is_none() && !is_interrupted) {
+        None => None,
+        Some(scene) => {
+            let other = simulate(&scene, options, None)?;
+            is_interrupted = other.is_interrupted;
+            (!is_interrupted).then_some((scene.controller.torques_from, other))
+        }
+    };
     let report = Report {
         scene: &scene,
         reason: &reason,
-        scalar: options.controller.scalar(),
+        warnings: &warnings,
+        scalar,
         controller: options.controller.place,
         run: &run,
         other: other.as_ref(),
     };
-    let files = match write_files(&options.folder(&scene.name), &report) {
-        Ok(files) => files,
-        Err(message) => return bad_input(&message, options.json),
-    };
+    let files = write_files(&folder, &report)?;
+    options.write_saved(run.saved.as_ref())?;
+    let failed = run.failure.as_ref().map(|f| format!("failed at {:.4} s: {}", f.time_s, f.place));
+    let reached = run.samples.last().map_or(0.0, |last| last.time_s);
+    let status = ended(failed, is_interrupted.then_some(reached));
     if options.json {
-        say(&format!("{:#}\n", report::json(&report, &files)));
-    } else {
-        say(&report::text(&report, &files));
+        return Ok(say(&format!("{:#}\n", report::json(&report, &files)), status));
     }
-    match &run.failure {
-        None => ExitCode::SUCCESS,
-        Some(failure) => {
-            eprintln!("failed at {:.4} s: {}", failure.time_s, failure.place);
-            ExitCode::from(RUN_FAILED)
-        }
+    Ok(say(&report::text(&report, &files), status))
+}
+
+/// Refuses a saved run of another motion.
+fn belongs(saved: &SavedRun, scene: &Scene, scalar: Scalar) -> Result<(), String> {
+    let other = saved.motion.difference(&MotionIdentity::of_robot(scene));
+    let other = other.or_else(|| {
+        let of_saved = saved.scalar.filter(|of_saved| *of_saved != scalar)?;
+        Some(format!("--scalar {of_saved:?}, not {scalar:?}").to_lowercase())
+    });
+    match other {
+        None => Ok(()),
+        Some(difference) => Err(format!("the saved run is of another motion: {difference}")),
     }
+}
+
+/// Says of a run that has not come to its end why, on stderr, and gives its exit status.
+pub(super) fn ended(failed: Option<String>, interrupted_s: Option<f64>) -> ExitCode {
+    if let Some(failure) = failed {
+        complain(failure);
+        return ExitCode::from(RUN_FAILED);
+    }
+    if let Some(time_s) = interrupted_s {
+        complain(format_args!("interrupted at {time_s:.4} s"));
+        return ExitCode::from(INTERRUPTED);
+    }
+    ExitCode::SUCCESS
+}
+
+/// What the user should know before the run begins.
+pub(super) fn warn(warnings: &[String]) {
+    for warning in warnings {
+        complain(format_args!("warning: {warning}"));
+    }
+}
+
+/// Refuses a folder with a record that begins before the one that a run would write there, as it does that goes on from
+/// another one: what that one left would be lost.
+pub(super) fn keeps_record(folder: &Path, from: Option<&SavedRun>) -> Result<(), String> {
+    let Some(saved) = from else { return Ok(()) };
+    let record = folder.join("record.csv");
+    // A file that is no record loses nothing that a run has made.
+    let Some(begins) = first_time(&record).filter(|begins| *begins < saved.time_s) else {
+        return Ok(());
+    };
+    Err(format!(
+        "{}: it holds a record from {begins} s on, and this run's begins at {} s: --out must name another folder",
+        record.display(),
+        saved.time_s
+    ))
+}
+
+fn first_time(record: &Path) -> Option<f64> {
+    let mut rows = csv::Reader::from_path(record).ok()?;
+    let first = rows.records().next()?.ok()?;
+    first.get(0)?.parse().ok()
 }
 
 fn with_options(mut scene: Scene, options: &Options) -> Result<(Scene, String), String> {
@@ -175,13 +268,12 @@ fn other_reading(scene: &Scene) -> Option<Scene> {
 }
 
 /// Runs with a progress bar on stderr, which hides itself where that is no terminal.
-fn simulate(scene: &Scene, options: &Options) -> Result<Run, String> {
+fn simulate(scene: &Scene, options: &Options, from: Option<&SavedRun>) -> Result<Run, String> {
     let mut controller = options.controller.controller(scene).map_err(|error| error.to_string())?;
-    let from = options.saved(&scene.name)?;
     let bar = bar(&scene.name, scene.duration_s);
-    let mut run = closed_loop::run_from(scene, controller.as_mut(), from.as_ref(), &mut |time| {
-        bar.set_position((time * 1e3) as u64);
-    });
+    let follower = |time: f64| bar.set_position((time * 1e3) as u64);
+    let mut follow = Until { stop: interrupt::watched(), follower };
+    let mut run = closed_loop::run_from(scene, controller.as_mut(), from, &mut follow);
     // A run that goes on, and a controller that runs elsewhere, cannot be played again from the start.
     if from.is_none() && options.controller.place == Place::Host {
         closed_loop::explain(scene, &mut run, &mut |scene| {
@@ -204,38 +296,33 @@ pub(super) fn bar(scene: &str, duration_s: f64) -> ProgressBar {
     bar
 }
 
-/// The record's file in a folder that is made.
-pub(super) fn created(folder: &Path) -> Result<(PathBuf, std::fs::File), String> {
-    let context = |error: &dyn std::fmt::Display| format!("{}: {error}", folder.display());
-    std::fs::create_dir_all(folder).map_err(|error| context(&error))?;
-    let record = folder.join("record.csv");
-    let file = std::fs::File::create(&record).map_err(|error| context(&error))?;
-    Ok((record, file))
+/// Makes the folder.
+pub(super) fn made(folder: &Path) -> Result<(), String> {
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))
+}
+
+/// Takes the folder for oneself, as far as the system can, so that files of two runs at once do not mix. Systems that
+/// cannot open or lock folders are left with whole files of either run.
+pub(super) fn taken(folder: &Path) -> Option<File> {
+    File::open(folder).ok().filter(|folder| folder.lock().is_ok())
 }
 
 /// The report, the record in both forms, and the figures.
 fn write_files(folder: &Path, report: &Report<'_>) -> Result<Vec<PathBuf>, String> {
     let Report { scene, run, .. } = report;
-    let (record, file) = created(folder)?;
-    write_csv(&run.samples, std::io::BufWriter::new(file))
-        .map_err(|error| format!("{}: {error}", record.display()))?;
-    let mcap = folder.join("record.mcap");
-    let in_mcap = |error: &dyn std::fmt::Display| format!("{}: {error}", mcap.display());
-    let file = std::fs::File::create(&mcap).map_err(|error| in_mcap(&error))?;
-    let to = std::io::BufWriter::new(file);
-    write_mcap(&Shown::of(scene), &run.samples, &run.events, to)
-        .map_err(|error| in_mcap(&error))?;
-    let html = page(&report.page()).map_err(|error| error.to_string())?;
-    let mut files = vec![written(folder.join("report.html"), &html)?, record, mcap];
+    let _taken = taken(folder);
+    let named = |name: &str| folder.join(name);
+    let (record, mcap, page_file) =
+        (named("record.csv"), named("record.mcap"), named("report.html"));
+    write_whole(&record, |to| write_csv(&run.samples, to))?;
+    write_whole(&mcap, |to| write_mcap(&Shown::of(scene), &run.samples, &run.events, to))?;
+    write_text(&page_file, &page(&report.page()).map_err(|error| error.to_string())?)?;
+    let mut files = vec![page_file, record, mcap];
     for figure in RUN_FIGURES {
         let svg = figure.svg(&scene.name, &run.samples, &run.events);
-        let svg = svg.map_err(|error| error.to_string())?;
-        files.push(written(folder.join(format!("{}.svg", figure.name)), &svg)?);
+        let file = named(&format!("{}.svg", figure.name));
+        write_text(&file, &svg.map_err(|error| error.to_string())?)?;
+        files.push(file);
     }
     Ok(files)
-}
-
-fn written(path: PathBuf, text: &str) -> Result<PathBuf, String> {
-    std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
-    Ok(path)
 }

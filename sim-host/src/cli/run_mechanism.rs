@@ -1,14 +1,17 @@
 //! `surefoot run` of a mechanism that nobody controls.
 
 use super::model::ModelName;
-use super::report::SHOWN_EVENTS;
-use super::run::{Options, bar, created};
-use super::{RUN_FAILED, bad_input, recommended, say};
+use super::report::{SHOWN_EVENTS, other_end};
+use super::run::{Options, bar, ended, keeps_record, made, taken, warn};
+use super::{bad_input, interrupt, recommended, say};
 use crate::chart::write_mechanism_chart;
+use crate::follow::Until;
+use crate::integrators::Method;
 use crate::mechanism::{Cause, ChosenModel, MechanismRun, run_model};
 use crate::record::write_mechanism_csv;
-use crate::scene::MechanismScene;
+use crate::scene::{Mechanism, MechanismScene};
 use crate::stability::FailureKind;
+use crate::written::write_whole;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -16,45 +19,40 @@ use std::process::ExitCode;
 
 /// Runs the scene and reports.
 pub(super) fn run_mechanism(scene: MechanismScene, options: &Options) -> ExitCode {
-    let (scene, reason) = match with_options(scene, options) {
-        Ok(chosen) => chosen,
-        Err(message) => return bad_input(&message, options.json),
-    };
-    let from = match options.saved(&scene.name) {
-        Ok(from) => from,
-        Err(message) => return bad_input(&message, options.json),
-    };
-    let wanted = match options.model.map_or(Ok(None), ModelName::of_mechanism) {
-        Ok(wanted) => wanted,
-        Err(message) => return bad_input(&message, options.json),
-    };
+    match run_to_its_end(scene, options) {
+        Ok(status) => status,
+        Err(message) => bad_input(&message, options.json),
+    }
+}
+
+fn run_to_its_end(scene: MechanismScene, options: &Options) -> Result<ExitCode, String> {
+    let (scene, reason) = with_options(scene, options)?;
+    let saved = options.saved(scene.duration_s)?;
+    let folder = options.folder(&scene.name, saved.as_ref());
+    keeps_record(&folder, saved.as_ref())?;
+    let wanted = options.model.map_or(Ok(None), ModelName::of_mechanism)?;
+    let of_bodies =
+        !matches!(scene.mechanism, Mechanism::RigidBody { .. } | Mechanism::Pendulum { .. });
+    options.check_save(of_bodies && scene.integrator.name == Method::Variational)?;
+    let warnings = scene.warnings();
+    warn(&warnings);
+    // Not after the run, which would be lost.
+    made(&folder)?;
     let bar = bar(&scene.name, scene.duration_s);
-    let tell = &mut |time: f64| bar.set_position((time * 1e3) as u64);
-    let run = run_model(&scene, wanted, from.as_ref(), tell);
+    let follower = |time: f64| bar.set_position((time * 1e3) as u64);
+    let mut follow = Until { stop: interrupt::watched(), follower };
+    let run = run_model(&scene, wanted, saved.as_ref(), &mut follow);
     bar.finish_and_clear();
-    let run = match run {
-        Ok(run) => run,
-        Err(error) => return bad_input(&format!("{}: {error}", scene.name), options.json),
-    };
-    if let Err(message) = options.write_saved(run.saved.as_ref()) {
-        return bad_input(&message, options.json);
-    }
-    let files = match write_files(&options.folder(&scene.name), &scene, &run) {
-        Ok(files) => files,
-        Err(message) => return bad_input(&message, options.json),
-    };
+    let run = run.map_err(|error| format!("{}: {error}", scene.name))?;
+    let files = write_files(&folder, &scene, &run)?;
+    options.write_saved(run.saved.as_ref())?;
+    let failed = run.failure.as_ref().map(|f| format!("failed at {:.4} s: {f}", f.time_s));
+    let status = ended(failed, run.is_interrupted.then_some(run.progress.time_s));
     if options.json {
-        say(&format!("{:#}\n", document(&scene, &reason, &run, &files)));
-    } else {
-        say(&text(&scene, &reason, &run, &files));
+        let document = document(&scene, &reason, &warnings, &run, &files);
+        return Ok(say(&format!("{document:#}\n"), status));
     }
-    match &run.failure {
-        None => ExitCode::SUCCESS,
-        Some(failure) => {
-            eprintln!("failed at {:.4} s: {failure}", failure.time_s);
-            ExitCode::from(RUN_FAILED)
-        }
-    }
+    Ok(say(&text(&scene, &reason, &warnings, &run, &files), status))
 }
 
 fn with_options(
@@ -81,9 +79,9 @@ fn write_files(
     scene: &MechanismScene,
     run: &MechanismRun,
 ) -> Result<Vec<PathBuf>, String> {
-    let (record, file) = created(folder)?;
-    write_mechanism_csv(&scene.mechanism, &run.samples, std::io::BufWriter::new(file))
-        .map_err(|error| format!("{}: {error}", record.display()))?;
+    let _taken = taken(folder);
+    let record = folder.join("record.csv");
+    write_whole(&record, |to| write_mechanism_csv(&scene.mechanism, &run.samples, to))?;
     let chart = write_mechanism_chart(folder, &scene.name, &scene.mechanism, &run.samples)
         .map_err(|error| error.to_string())?;
     Ok(vec![record, chart])
@@ -123,10 +121,32 @@ fn step_that_works(run: &MechanismRun) -> Option<f64> {
     }
 }
 
-fn text(scene: &MechanismScene, reason: &str, run: &MechanismRun, files: &[PathBuf]) -> String {
+fn outcome(run: &MechanismRun) -> &'static str {
+    match &run.failure {
+        Some(_) => "failed",
+        None if run.is_interrupted => "interrupted",
+        None => "completed",
+    }
+}
+
+/// The time of the record's last row, s.
+fn reached(run: &MechanismRun) -> f64 {
+    run.samples.last().map_or(0.0, |last| last.time_s)
+}
+
+fn text(
+    scene: &MechanismScene,
+    reason: &str,
+    warnings: &[String],
+    run: &MechanismRun,
+    files: &[PathBuf],
+) -> String {
     let mut out = String::new();
     // Writing to a string cannot fail.
     let _ = lines(&mut out, scene, reason, run);
+    for warning in warnings {
+        let _ = writeln!(out, "  warning: {warning}");
+    }
     for file in files {
         let _ = writeln!(out, "  {}", file.display());
     }
@@ -139,12 +159,15 @@ fn lines(
     reason: &str,
     run: &MechanismRun,
 ) -> std::fmt::Result {
-    let word = if run.failure.is_some() { "FAILED" } else { "COMPLETED" };
-    writeln!(out, "{}: {word}", scene.name)?;
+    writeln!(out, "{}: {}", scene.name, outcome(run).to_uppercase())?;
     writeln!(out, "  {}", scene.description)?;
     if let Some(failure) = &run.failure {
         writeln!(out, "  {failure}")?;
         writeln!(out, "  advice: {}", advice(run))?;
+    }
+    if let Some(line) = other_end(scene.duration_s, reached(run), scene.integrator.step_s, "steps")
+    {
+        writeln!(out, "  {line}")?;
     }
     if let Some(ChosenModel { model, bodies, reason }) = &run.model {
         writeln!(out, "  model: {model}, bodies: {bodies}; {reason}")?;
@@ -201,7 +224,13 @@ fn lines(
 }
 
 /// The document of `--json`. Keys that have no meaning for a mechanism are null.
-fn document(scene: &MechanismScene, reason: &str, run: &MechanismRun, files: &[PathBuf]) -> Value {
+fn document(
+    scene: &MechanismScene,
+    reason: &str,
+    warnings: &[String],
+    run: &MechanismRun,
+    files: &[PathBuf],
+) -> Value {
     let failure = run.failure.as_ref().map(|failure| {
         json!({
             "kind": FailureKind::from(*failure),
@@ -217,11 +246,13 @@ fn document(scene: &MechanismScene, reason: &str, run: &MechanismRun, files: &[P
         "integrator": scene.integrator.name,
         "step_s": scene.integrator.step_s,
         "integrator_reason": reason,
-        "duration_s": scene.duration_s,
+        "duration_s": reached(run),
+        "requested_duration_s": scene.duration_s,
+        "warnings": warnings,
         "scalar": "f64",
         "model": run.model,
         "steps": run.progress.steps,
-        "outcome": if run.failure.is_some() { "failed" } else { "completed" },
+        "outcome": outcome(run),
         "failure": failure,
         "wall_s": run.wall.as_secs_f64(),
         "wall_us_per_step": run.wall.as_secs_f64() * 1e6 / run.progress.steps.max(1) as f64,

@@ -7,7 +7,7 @@ use crate::plant::PlantState;
 use crate::record::SupervisorMemory;
 use crate::scene::{Scene, Workspace};
 use nalgebra::Vector3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use surefoot::Real;
 use surefoot::balance::{
     self, Fault, Gains, LeggedRobot, Reference, RobotState, StopReason, WorkspaceForm, tick,
@@ -19,7 +19,7 @@ static ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
 static ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32();
 
 /// Precision of the controller.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Scalar {
     /// As on the target.

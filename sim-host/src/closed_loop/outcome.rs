@@ -13,6 +13,8 @@ pub enum Outcome {
     Completed,
     /// The controller's supervisor stopped the robot.
     Stopped,
+    /// Ended before its time, by whoever followed it.
+    Interrupted,
     /// The robot fell.
     Fell,
     /// The run could not go on.

@@ -7,10 +7,11 @@ use super::events::Watch;
 use super::memory::{memory, remember};
 use super::plant::plant;
 use super::{Commanded, Controller, Costs, CutTorques, Failure, Motors, Outcome, Sensors};
+use crate::follow::Follow;
 use crate::integrators::Progress;
 use crate::multibody::SystemError;
 use crate::plant::{Plant, PlantState};
-use crate::record::{Event, Sample, SavedMotion, SavedRun};
+use crate::record::{Event, MotionIdentity, Sample, SavedMotion, SavedRun};
 use crate::scene::{Scene, TorquesFrom};
 use nalgebra::Vector3;
 use std::time::{Duration, Instant};
@@ -22,7 +23,9 @@ use surefoot::spatial::Quaternion;
 pub struct Run {
     /// How it ended.
     pub outcome: Outcome,
-    /// Why, if it ended early.
+    /// Whether it was ended before its time, by whoever followed it.
+    pub is_interrupted: bool,
+    /// Why, if it failed.
     pub failure: Option<Failure>,
     /// What is known of that.
     pub cause: Option<Cause>,
@@ -61,9 +64,9 @@ pub struct Stop {
 const FALLEN_HEIGHT: f64 = 0.55;
 const FALLEN_UPRIGHT: f64 = 0.5;
 
-/// Runs a scene to its end, or until it fails. `progress` is told the simulated time now and then.
-pub fn run(scene: &Scene, controller: &mut dyn Controller, progress: &mut dyn FnMut(f64)) -> Run {
-    run_from(scene, controller, None, progress)
+/// Runs a scene to its end, until it fails, or until `follow`, which hears of the simulated time now and then, ends it.
+pub fn run(scene: &Scene, controller: &mut dyn Controller, follow: &mut dyn Follow) -> Run {
+    run_from(scene, controller, None, follow)
 }
 
 /// The same from where a run has stopped, if one is given: to the same bits as if it had gone on.
@@ -71,10 +74,10 @@ pub fn run_from(
     scene: &Scene,
     controller: &mut dyn Controller,
     from: Option<&SavedRun>,
-    progress: &mut dyn FnMut(f64),
+    follow: &mut dyn Follow,
 ) -> Run {
     match plant(scene) {
-        Ok(mut plant) => run_plant(scene, plant.as_mut(), controller, from, progress),
+        Ok(mut plant) => run_plant(scene, plant.as_mut(), controller, from, follow),
         Err(failure) => ended(Run::new(), Err(step_failure(0.0, failure))),
     }
 }
@@ -85,11 +88,11 @@ pub fn run_plant(
     plant: &mut dyn Plant,
     controller: &mut dyn Controller,
     from: Option<&SavedRun>,
-    progress: &mut dyn FnMut(f64),
+    follow: &mut dyn Follow,
 ) -> Run {
     let started = Instant::now();
     let mut run = Run::new();
-    let result = advance(scene, plant, controller, (from, progress), &mut run);
+    let result = advance(scene, plant, controller, (from, follow), &mut run);
     // Whatever came of it later.
     let result = run.stop.map_or(result, |stop| Err(stopped(stop)));
     run.progress = plant.progress().copied();
@@ -112,6 +115,7 @@ impl Run {
     fn new() -> Self {
         Self {
             outcome: Outcome::Completed,
+            is_interrupted: false,
             failure: None,
             cause: None,
             samples: Vec::new(),
@@ -137,6 +141,8 @@ fn ended(mut run: Run, result: Result<(), Failure>) -> Run {
             _ => Outcome::Failed,
         };
         run.failure = Some(failure);
+    } else if run.is_interrupted {
+        run.outcome = Outcome::Interrupted;
     } else if let Some(last) = run.samples.last() {
         let arrived = last.error_distance() < 1e-3 && last.error_angle() < 0.1_f64.to_radians();
         run.outcome = if arrived { Outcome::Balanced } else { Outcome::Completed };
@@ -148,7 +154,7 @@ fn advance(
     scene: &Scene,
     plant: &mut dyn Plant,
     controller: &mut dyn Controller,
-    (from, progress): (Option<&SavedRun>, &mut dyn FnMut(f64)),
+    (from, follow): (Option<&SavedRun>, &mut dyn Follow),
     run: &mut Run,
 ) -> Result<(), Failure> {
     let step = scene.integrator.step_s;
@@ -160,7 +166,10 @@ fn advance(
     let mut sensors = Sensors::new(&scene.sensing, steps_per_tick as f64 * step);
     let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize);
     let mut first = 0;
-    if let Some(SavedRun { torques_on, checkpoint, hardware, supervisor, .. }) = from {
+    if let Some(SavedRun { torques_on, checkpoint, hardware, supervisor, motion, .. }) = from {
+        if let Some(difference) = motion.difference(&MotionIdentity::of_robot(scene)) {
+            return Err(other_motion(&difference));
+        }
         let SavedMotion::Tree(checkpoint) = checkpoint else {
             return Err(step_failure(0.0, SystemError::OtherCheckpoint.into()));
         };
@@ -186,8 +195,10 @@ fn advance(
         touched |= watch.touched();
         let state = plant.state().map_err(|failure| step_failure(time, failure))?;
         // A run that is taken up again begins with this tick.
-        let memory = (tick == ticks).then(|| memory(scene, &sensors, &motors)).flatten();
-        let supervisor = (tick == ticks).then(|| controller.memory()).flatten();
+        let is_interrupted = tick % 25 == 0 && tick < ticks && follow.reached(time).is_break();
+        let is_last = tick == ticks || is_interrupted;
+        let memory = is_last.then(|| memory(scene, &sensors, &motors)).flatten();
+        let supervisor = is_last.then(|| controller.memory()).flatten();
         let command = command(&sensors.read(&state), controller, touched, time)?;
         if run.stop.is_none() {
             run.stop = controller.stopped().map(|reason| Stop { time_s: time, reason });
@@ -196,12 +207,13 @@ fn advance(
         run.cut_torques = motors.cut();
         sample(plant, scene, &state, (&command.desired_wrench, &motors.over_step(0)), time, run)?;
         fallen(&state, time)?;
-        if tick % 25 == 0 {
-            progress(time);
-        }
-        if tick == ticks {
+        if is_last {
+            run.is_interrupted = is_interrupted;
             run.saved = plant.checkpoint().map(|checkpoint| SavedRun {
                 scene: scene.name.clone(),
+                motion: MotionIdentity::of_robot(scene),
+                scalar: None,
+                time_s: time,
                 torques_on: touched,
                 checkpoint: SavedMotion::Tree(checkpoint.clone()),
                 hardware: memory,
@@ -209,10 +221,11 @@ fn advance(
             });
             break;
         }
-        let push = scene.push(time);
         for number in 0..steps_per_tick as usize {
+            let begun = (first * steps_per_tick + run.steps) as f64 * step;
+            let end = (first * steps_per_tick + run.steps + 1) as f64 * step;
             plant
-                .step(step, &motors.over_step(number), push)
+                .step(step, &motors.over_step(number), scene.push(begun, end))
                 .map_err(|failure| step_failure(time, failure))?;
             run.steps += 1;
             let made = (first * steps_per_tick + run.steps) as f64 * step;
@@ -303,6 +316,15 @@ fn stopped(Stop { time_s, reason }: Stop) -> Failure {
     };
     let place = format!("the supervisor stopped the robot: {reason}");
     Failure { kind: "stopped", time_s, place, advice: advice.into() }
+}
+
+fn other_motion(difference: &str) -> Failure {
+    Failure {
+        kind: "resume",
+        time_s: 0.0,
+        place: format!("the saved run is of another motion: {difference}"),
+        advice: "the scene that the run was saved with".into(),
+    }
 }
 
 fn not_at_a_tick(time_s: f64) -> Failure {

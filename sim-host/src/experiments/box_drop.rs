@@ -199,6 +199,7 @@ fn start() -> Result<Simulation, BoxFailure> {
 fn not_a_box(name: &str) -> BoxFailure {
     let (name, field) = (name.to_owned(), "mechanism.kind".to_owned());
     BoxFailure::Scene(SceneError::Value {
+        line: None,
         name,
         field,
         value: "another".to_owned(),

@@ -54,6 +54,7 @@ mod tests {
         };
         Run {
             outcome: Outcome::Completed,
+            is_interrupted: false,
             failure: None,
             samples: Vec::new(),
             events: events.iter().map(event).collect(),

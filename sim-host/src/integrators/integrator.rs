@@ -38,8 +38,11 @@ pub struct Progress {
     pub steps: u64,
     /// Newton iterations in all.
     pub iterations: u64,
-    /// Newton iterations of the step that took most.
+    /// Newton iterations of the step that took most, those of all its stages or parts.
     pub most_iterations: u32,
+    /// Newton iterations since the last step was made.
+    #[serde(skip)]
+    iterations_of_step: u32,
     /// Evaluations of residuals, or of the differential equations for methods on those.
     #[serde(default)]
     pub evaluations: u64,
@@ -58,6 +61,7 @@ impl Progress {
             steps: 0,
             iterations: 0,
             most_iterations: 0,
+            iterations_of_step: 0,
             evaluations: 0,
             residual: 0.0,
             split_steps: 0,
@@ -74,9 +78,11 @@ impl Progress {
         StepError { step: self.steps, h: self.h, time_s: self.time_s, failure: failure.into() }
     }
 
-    /// A step has been made, without iterations.
+    /// A step has been made.
     pub(crate) fn advance(&mut self) {
         self.steps += 1;
+        self.most_iterations = self.most_iterations.max(self.iterations_of_step);
+        self.iterations_of_step = 0;
         // Not by addition, whose round-off would add up.
         self.time_s = self.steps as f64 * self.h;
     }
@@ -95,7 +101,7 @@ impl Progress {
     /// The same by a solver of one's own, without its evaluations.
     pub(crate) fn iterated(&mut self, iterations: u32, residual: f64) {
         self.iterations += u64::from(iterations);
-        self.most_iterations = self.most_iterations.max(iterations);
+        self.iterations_of_step += iterations;
         self.residual = self.residual.max(residual);
     }
 }

@@ -5,8 +5,9 @@ use super::model::{ChosenModel, MechanismModel, Started};
 use super::moving::Moving;
 use super::start::{StartFailure, start_model};
 use crate::contact::{ContactPoint, ContactState};
+use crate::follow::Follow;
 use crate::integrators::{Progress, StepError};
-use crate::record::{Event, EventKind, SavedRun};
+use crate::record::{Event, EventKind, MotionIdentity, SavedRun};
 use crate::scene::MechanismScene;
 use std::time::{Duration, Instant};
 
@@ -48,7 +49,9 @@ pub struct MechanismRun {
     pub events: Vec<Event>,
     /// Where it stopped, if it can be taken up again.
     pub saved: Option<SavedRun>,
-    /// Why it ended early.
+    /// Whether it was ended before its time, by whoever followed it.
+    pub is_interrupted: bool,
+    /// Why it failed.
     pub failure: Option<StepError>,
     /// What trials have found about that.
     pub cause: Option<Cause>,
@@ -70,13 +73,15 @@ const LOST: f64 = 0.1;
 pub(super) const ROUND_OFF: f64 = 1e-9;
 /// Samples at most.
 const SAMPLES: u64 = 4000;
+/// Numbers in all samples at most, 8 bytes each.
+const MOST_NUMBERS: u64 = 100_000_000;
 
-/// Runs a scene; `at` hears of the time that is reached.
+/// Runs a scene; `follow` hears of the time that is reached, and may end the run there.
 ///
 /// # Errors
 /// A [`StartFailure`].
-pub fn run(scene: &MechanismScene, at: &mut dyn FnMut(f64)) -> Result<MechanismRun, StartFailure> {
-    run_from(scene, None, at)
+pub fn run(scene: &MechanismScene, follow: &mut dyn Follow) -> Result<MechanismRun, StartFailure> {
+    run_from(scene, None, follow)
 }
 
 /// The same from where a run has stopped, if one is given: to the same bits as if it had gone on.
@@ -86,9 +91,9 @@ pub fn run(scene: &MechanismScene, at: &mut dyn FnMut(f64)) -> Result<MechanismR
 pub fn run_from(
     scene: &MechanismScene,
     from: Option<&SavedRun>,
-    at: &mut dyn FnMut(f64),
+    follow: &mut dyn Follow,
 ) -> Result<MechanismRun, StartFailure> {
-    run_model(scene, None, from, at)
+    run_model(scene, None, from, follow)
 }
 
 /// The same with a model that is wanted, in place of the smallest.
@@ -99,16 +104,22 @@ pub fn run_model(
     scene: &MechanismScene,
     wanted: Option<MechanismModel>,
     from: Option<&SavedRun>,
-    at: &mut dyn FnMut(f64),
+    follow: &mut dyn Follow,
 ) -> Result<MechanismRun, StartFailure> {
     let Started { mut moving, model } = start_model(scene, wanted)?;
+    let motion = MotionIdentity::of_mechanism(scene, model.as_ref());
     if let Some(saved) = from {
+        if let Some(difference) = saved.motion.difference(&motion) {
+            return Err(StartFailure::OtherMotion { difference });
+        }
         moving.restore(&saved.checkpoint)?;
     }
     let first = moving.progress().steps;
     let mut watch = Watch { down: is_down(moving.contacts()).collect() };
     let steps = (scene.duration_s / scene.integrator.step_s).round().max(1.0) as u64;
-    let every = steps.div_ceil(SAMPLES);
+    // A motion that cannot say where it is fails at its first sample.
+    let numbers = moving.state().map_or(1, |(x, v)| (x.len() + v.len()) as u64);
+    let every = steps.div_ceil(SAMPLES.min(MOST_NUMBERS / numbers).max(1));
     let mut run = MechanismRun {
         samples: Vec::new(),
         energy_range: [f64::INFINITY, f64::NEG_INFINITY],
@@ -119,6 +130,7 @@ pub fn run_model(
         forecast_s: None,
         events: Vec::new(),
         saved: None,
+        is_interrupted: false,
         failure: None,
         cause: None,
         kinetic_max: 0.0,
@@ -140,9 +152,6 @@ pub fn run_model(
             run.failure = Some(error);
             break;
         }
-        if is_sample {
-            at(run.progress.time_s);
-        }
         if step % steps.div_ceil(KEPT) == 0 {
             let h = run.progress.h;
             let moving = moving.in_steps_of(h);
@@ -150,6 +159,10 @@ pub fn run_model(
             kept = [kept[1].take(), now];
         }
         if step >= steps {
+            break;
+        }
+        if is_sample && follow.reached(run.progress.time_s).is_break() {
+            run.is_interrupted = true;
             break;
         }
         if let Err(error) = moving.step() {
@@ -161,6 +174,9 @@ pub fn run_model(
     run.progress = *moving.progress();
     run.saved = moving.checkpoint().map(|checkpoint| SavedRun {
         scene: scene.name.clone(),
+        motion,
+        scalar: None,
+        time_s: run.progress.time_s,
         torques_on: false,
         checkpoint,
         hardware: None,

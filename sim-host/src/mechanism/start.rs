@@ -53,6 +53,12 @@ pub enum StartFailure {
         /// The scene's method.
         method: Method,
     },
+    /// A saved run is of another motion.
+    #[error("the saved run is of another motion: {difference}")]
+    OtherMotion {
+        /// What differs.
+        difference: String,
+    },
     /// It has no bodies and joints.
     #[error("the mechanism has no bodies and joints")]
     NoBodies,

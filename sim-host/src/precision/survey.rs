@@ -6,6 +6,7 @@ use super::peers::{Mujoco, NoMujoco, peer_contenders};
 use super::problem::Omission;
 use super::reference::{NoReference, Reference, reference};
 use super::sweep::{Curve, Effort, sweep};
+use crate::written::write_text;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
@@ -159,15 +160,12 @@ impl Store<'_> {
     fn keep<T: Serialize>(&self, part: &str, work: &T) -> Result<(), SurveyError> {
         let path = self.path(part);
         let kept = Kept { fingerprint: self.fingerprint.clone(), work };
-        let draft = path.with_extension("draft");
         let error = |error: &dyn std::fmt::Display| SurveyError::File {
             path: path.clone(),
             reason: error.to_string(),
         };
         let text = serde_json::to_string_pretty(&kept).map_err(|e| error(&e))?;
-        std::fs::create_dir_all(self.folder)
-            .and_then(|()| std::fs::write(&draft, text))
-            .and_then(|()| std::fs::rename(&draft, &path))
-            .map_err(|e| error(&e))
+        std::fs::create_dir_all(self.folder).map_err(|e| error(&e))?;
+        write_text(&path, &text).map_err(|e| error(&e))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::survey::Survey;
 use serde::Serialize;
+use std::io::Write;
 use std::path::Path;
 
 #[derive(Serialize)]
@@ -30,8 +31,11 @@ struct Row<'a> {
 ///
 /// # Errors
 /// Where the file cannot be written.
-pub fn write_rows(path: &Path, surveys: &[Survey]) -> Result<(), csv::Error> {
-    let mut writer = csv::Writer::from_path(path)?;
+pub fn write_rows(path: &Path, surveys: &[Survey]) -> Result<(), String> {
+    crate::written::write_rows(path, |writer| rows(writer, surveys))
+}
+
+fn rows<W: Write>(writer: &mut csv::Writer<W>, surveys: &[Survey]) -> Result<(), csv::Error> {
     for survey in surveys {
         for curve in survey.curves.iter().chain(&survey.peers) {
             for m in &curve.measurements {
@@ -58,7 +62,7 @@ pub fn write_rows(path: &Path, surveys: &[Survey]) -> Result<(), csv::Error> {
             }
         }
     }
-    Ok(writer.flush()?)
+    Ok(())
 }
 
 /// This machine and this program, in a line.

@@ -3,6 +3,7 @@
 mod csv;
 mod event;
 mod foxglove;
+mod identity;
 mod mechanism_csv;
 mod saved;
 mod settling;
@@ -10,6 +11,7 @@ mod settling;
 pub use self::csv::write_csv;
 pub use event::{Event, EventKind};
 pub use foxglove::{RecordFailure, write_mcap};
+pub use identity::MotionIdentity;
 pub use mechanism_csv::write_mechanism_csv;
 pub use saved::{HardwareMemory, MeasuredBefore, SavedMotion, SavedRun, SupervisorMemory};
 pub use settling::Settling;

@@ -1,6 +1,9 @@
 //! A run that stopped, to be taken up again.
 
+use super::MotionIdentity;
+use crate::closed_loop::Scalar;
 use crate::multibody::{BodyCheckpoint, Checkpoint, PlanarCheckpoint};
+use crate::written::write_text;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use surefoot::balance::{Mode, StopReason};
@@ -9,8 +12,15 @@ use surefoot::balance::{Mode, StopReason};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedRun {
-    /// Name of its scene.
+    /// Name of its scene, for people.
     pub scene: String,
+    /// What decides its motion.
+    pub motion: MotionIdentity,
+    /// Precision of its controller, if that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scalar: Option<Scalar>,
+    /// When it stopped, s.
+    pub time_s: f64,
     /// Whether the controller's torques had set in; of no meaning without a controller.
     pub torques_on: bool,
     /// The motion.
@@ -82,7 +92,7 @@ impl SavedRun {
     pub fn write(&self, path: &Path) -> Result<(), String> {
         let context = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         let text = serde_json::to_string_pretty(self).map_err(|error| context(&error))?;
-        std::fs::write(path, text).map_err(|error| context(&error))
+        write_text(path, &text)
     }
 
     /// Reads it.
@@ -93,16 +103,5 @@ impl SavedRun {
         let context = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
         let text = std::fs::read_to_string(path).map_err(|error| context(&error))?;
         serde_json::from_str(&text).map_err(|error| context(&error))
-    }
-
-    /// Its checkpoint, if it belongs to a scene of this name.
-    ///
-    /// # Errors
-    /// Which scene it belongs to.
-    pub fn of_scene(self, scene: &str) -> Result<Self, String> {
-        if self.scene == scene {
-            return Ok(self);
-        }
-        Err(format!("the saved run is of scene {:?}, not {scene:?}", self.scene))
     }
 }

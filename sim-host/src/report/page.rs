@@ -142,6 +142,7 @@ fn word(outcome: Outcome) -> Word {
         Outcome::Balanced => ("Balanced", "balanced"),
         Outcome::Completed => ("Completed, but not at the set point", "completed"),
         Outcome::Stopped => ("Stopped by its supervisor", "failed"),
+        Outcome::Interrupted => ("Interrupted", "completed"),
         Outcome::Fell => ("Fell", "fell"),
         Outcome::Failed => ("Failed", "failed"),
     };

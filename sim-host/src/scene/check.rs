@@ -13,6 +13,8 @@ const ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
 
 /// Most steps a run may have: a day of computing, and surely a slip of the pen beyond.
 const MOST_STEPS: f64 = 1e9;
+/// Most ticks a run may have: the record keeps 1 kB of each.
+const MOST_TICKS: f64 = 1e6;
 
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     numbers(scene)?;
@@ -31,6 +33,7 @@ pub(super) fn wrong(
 ) -> SceneError {
     SceneError::Value {
         name: scene.name.clone(),
+        line: None,
         field: field.to_owned(),
         value: format!("{value:?}"),
         expected: expected.into(),
@@ -73,10 +76,16 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
         return Err(wrong(scene, "set_point.orientation", set.orientation, expected));
     }
     for (number, push) in scene.pushes.iter().enumerate() {
-        let finite = push.force_n.iter().chain([&push.at_s]).all(|x| x.is_finite());
-        if !(finite && push.duration_s.is_finite() && push.duration_s > 0.0) {
-            let field = format!("pushes[{number}]");
-            return Err(wrong(scene, &field, push, "finite numbers, and a duration above zero"));
+        let field = |what: &str| format!("pushes[{number}].{what}");
+        if !(push.at_s.is_finite() && push.at_s >= 0.0) {
+            return Err(wrong(scene, &field("at_s"), push.at_s, "a time of zero or more"));
+        }
+        if !(push.duration_s.is_finite() && push.duration_s > 0.0) {
+            let expected = "a time above zero";
+            return Err(wrong(scene, &field("duration_s"), push.duration_s, expected));
+        }
+        if !push.force_n.iter().all(|x| x.is_finite()) {
+            return Err(wrong(scene, &field("force_n"), push.force_n, "finite numbers"));
         }
     }
     if let Workspace::BigBase(factor) = controller.workspace
@@ -145,6 +154,7 @@ fn thrown_block(scene: &Scene) -> Result<(), SceneError> {
 pub(super) fn duration_and_step(scene: &str, duration: f64, step: f64) -> Result<(), SceneError> {
     let wrong = |field: &str, value: f64, expected: String| SceneError::Value {
         name: scene.to_owned(),
+        line: None,
         field: field.to_owned(),
         value: format!("{value:?}"),
         expected,
@@ -158,6 +168,9 @@ pub(super) fn duration_and_step(scene: &str, duration: f64, step: f64) -> Result
     if duration / step > MOST_STEPS {
         let expected = format!("at most {MOST_STEPS:e} steps in {duration} s");
         return Err(wrong("integrator.step_s", step, expected));
+    }
+    if duration / step < 0.5 {
+        return Err(wrong("duration_s", duration, format!("a step of {step} s at least")));
     }
     Ok(())
 }
@@ -175,6 +188,15 @@ fn timing(scene: &Scene) -> Result<(), SceneError> {
     let steps = 1.0 / (rate * step);
     if !(rate.is_finite() && rate > 0.0) || steps < 1.0 - 1e-9 {
         let expected = format!("a rate above zero and at most one tick a step, {} Hz", 1.0 / step);
+        return Err(wrong(scene, "controller.rate_hz", rate, expected));
+    }
+    let ticks = scene.duration_s * rate;
+    if ticks < 0.5 {
+        let expected = format!("a tick of {} s at least", 1.0 / rate);
+        return Err(wrong(scene, "duration_s", scene.duration_s, expected));
+    }
+    if ticks > MOST_TICKS {
+        let expected = format!("at most {MOST_TICKS:e} ticks in {} s", scene.duration_s);
         return Err(wrong(scene, "controller.rate_hz", rate, expected));
     }
     if (steps - steps.round()).abs() > 1e-6 * steps {
@@ -231,7 +253,7 @@ mod tests {
         let text = BUILT_IN.iter().find(|scene| scene.name == "experiment-2").expect("there").text;
         for (from, to, words) in [
             ("mass_kg = 1.8", "mass_kg = 0.0", ["block.mass_kg", "above zero"]),
-            ("size_m = [0.08, 0.08", "size_m = [nan, 0.08", ["block.size_m", "above zero"]),
+            ("size_m = [0.08, 0.08", "size_m = [nan, 0.08", ["block.size_m[0] = nan", "finite"]),
             ("[-4.5, 0.0, 0.2]", "[inf, 0.0, 0.2]", ["block.velocity_mps", "finite"]),
             ("[0.50, 0.10, 1.20]", "[0.10, 0.10, 1.20]", ["block.position_m", "outside"]),
             ("[0.50, 0.10, 1.20]", "[0.50, 0.10, 0.02]", ["block.position_m", "above the floor"]),
@@ -253,9 +275,9 @@ mod tests {
         let text = BUILT_IN[0].text;
         for (from, to, words) in [
             ("step_s = 2e-3", "step_s = -1e-3", ["integrator.step_s", "above zero"]),
-            ("step_s = 2e-3", "step_s = nan", ["integrator.step_s", "above zero"]),
+            ("step_s = 2e-3", "step_s = nan", ["test:8: integrator.step_s = nan", "finite"]),
             ("step_s = 2e-3", "step_s = 1e-14", ["integrator.step_s", "at most"]),
-            ("duration_s = 3.0", "duration_s = inf", ["duration_s", "above zero"]),
+            ("duration_s = 3.0", "duration_s = inf", ["duration_s", "finite"]),
             ("rate_hz = 500.0", "rate_hz = 0.0", ["controller.rate_hz", "above zero"]),
             ("rate_hz = 500.0", "rate_hz = 30000.0", ["controller.rate_hz", "one tick a step"]),
             ("rate_hz = 500.0", "rate_hz = 333.0", ["controller.rate_hz", "whole number"]),
@@ -280,7 +302,7 @@ mod tests {
             ("workspace = \"fixed-foot\"", "workspace = { big-base = 0.0 }", ["big-base", "1e6"]),
             ("outline = \"A\"", "outline = \"B\"", ["expected one of", "`M`"]),
             ("rate_hz = 500.0", "rate_hz = 500.0\nspeed = 3", ["unknown field", "`speed`"]),
-            ("duration_s = 3.0", "duration_s = \"long\"", ["line 4", "f64"]),
+            ("duration_s = 3.0", "duration_s = \"long\"", ["test:4: duration_s", "f64"]),
         ] {
             assert!(text.contains(from), "{from}");
             let error = parse("test", &text.replacen(from, to, 1)).expect_err(to).to_string();

@@ -1,6 +1,7 @@
 //! What a mechanism's scene may get wrong.
 
 use super::SceneError;
+use super::inertia::impossible;
 use super::mechanism::{MOST_CHAIN_LINKS, MOST_LINKS, Mechanism, MechanismScene};
 use super::multibody::{BuildError, Misdescribed};
 use crate::integrators::Method;
@@ -26,6 +27,16 @@ impl MechanismScene {
         Err(self.wrong("integrator.name", method, format!("for bodies and joints one of {names}")))
     }
 
+    fn finite(&self, field: &str, values: &[f64]) -> Result<(), SceneError> {
+        let all_are = values.iter().all(|x| x.is_finite());
+        if all_are { Ok(()) } else { Err(self.wrong(field, values, "finite numbers".into())) }
+    }
+
+    fn positive(&self, field: &str, value: f64) -> Result<(), SceneError> {
+        let is = value.is_finite() && value > 0.0;
+        if is { Ok(()) } else { Err(self.wrong(field, value, "a finite number above zero".into())) }
+    }
+
     /// Checks what a file may get wrong.
     ///
     /// # Errors
@@ -43,23 +54,16 @@ impl MechanismScene {
         }
         match &self.mechanism {
             Mechanism::RigidBody { inertia_kg_m2, orientation, angular_velocity_rad_s } => {
-                let [a, b, c] = *inertia_kg_m2;
-                let possible = a > 0.0 && b > 0.0 && c > 0.0;
-                if !(possible && a + b >= c && b + c >= a && c + a >= b && (a + b + c).is_finite())
-                {
-                    let expected = "three inertias above zero, none above the others' sum";
+                if let Some(expected) = impossible(inertia_kg_m2) {
                     let field = "mechanism.inertia_kg_m2";
-                    return Err(self.wrong(field, inertia_kg_m2, expected.into()));
+                    return Err(self.wrong(field, inertia_kg_m2, expected));
                 }
                 let norm = orientation.iter().map(|q| q * q).sum::<f64>().sqrt();
                 if !((norm - 1.0).abs() < 1e-3) {
                     let expected = format!("a unit quaternion, scalar first (its norm is {norm})");
                     return Err(self.wrong("mechanism.orientation", orientation, expected));
                 }
-                if !angular_velocity_rad_s.iter().all(|w| w.is_finite()) {
-                    let field = "mechanism.angular_velocity_rad_s";
-                    return Err(self.wrong(field, angular_velocity_rad_s, "finite numbers".into()));
-                }
+                self.finite("mechanism.angular_velocity_rad_s", angular_velocity_rad_s)?;
             }
             Mechanism::Chain {
                 links, mass_kg, length_m, radius_m, bend_deg, gravity_m_s2, ..
@@ -68,30 +72,23 @@ impl MechanismScene {
                     let expected = format!("1 to {MOST_CHAIN_LINKS} links");
                     return Err(self.wrong("mechanism.links", links, expected));
                 }
-                let sizes = [mass_kg, length_m, radius_m];
-                if !sizes.iter().all(|size| size.is_finite() && **size > 0.0) {
-                    let expected = "a mass, a length and a radius above zero";
-                    return Err(self.wrong("mechanism", sizes, expected.into()));
-                }
-                if !(bend_deg.is_finite() && gravity_m_s2.is_finite()) {
-                    let field = "mechanism.bend_deg, gravity_m_s2";
-                    return Err(self.wrong(
-                        field,
-                        (bend_deg, gravity_m_s2),
-                        "finite numbers".into(),
-                    ));
-                }
+                self.positive("mechanism.mass_kg", *mass_kg)?;
+                self.positive("mechanism.length_m", *length_m)?;
+                self.positive("mechanism.radius_m", *radius_m)?;
+                self.finite("mechanism.bend_deg", &[*bend_deg])?;
+                self.finite("mechanism.gravity_m_s2", &[*gravity_m_s2])?;
                 self.check_method()?;
             }
             Mechanism::Multibody(bodies) => {
                 self.check_method()?;
-                bodies.start(self.integrator.step_s).map_err(|error| match error {
-                    BuildError::Field(Misdescribed { field, expected }) => {
-                        self.wrong(&field, "what it is", expected)
-                    }
-                    BuildError::System(error) => {
-                        self.wrong("mechanism", "what it is", format!("a system ({error})"))
-                    }
+                bodies.start(self.integrator.step_s).map_err(|error| {
+                    let Misdescribed { field, expected } = match error {
+                        BuildError::Field(wrong) => wrong,
+                        BuildError::System(error) => Misdescribed::of_system(&error),
+                    };
+                    // A file says what it is.
+                    let (name, value) = (self.name.clone(), String::new());
+                    SceneError::Value { name, line: None, field, value, expected }
                 })?;
             }
             Mechanism::Biped(flight) => {
@@ -101,23 +98,17 @@ impl MechanismScene {
                 })?;
             }
             Mechanism::Pendulum { gravity_m_s2, links } => {
-                if !gravity_m_s2.is_finite() {
-                    let field = "mechanism.gravity_m_s2";
-                    return Err(self.wrong(field, gravity_m_s2, "a finite number".into()));
-                }
+                self.finite("mechanism.gravity_m_s2", &[*gravity_m_s2])?;
                 if links.is_empty() || links.len() > MOST_LINKS {
                     let expected = format!("1 to {MOST_LINKS} links");
                     return Err(self.wrong("mechanism.links", links.len(), expected));
                 }
                 for (number, link) in links.iter().enumerate() {
-                    let angles = link.angles_deg.iter().chain(&link.rates_deg_s);
-                    let sizes = [link.mass_kg, link.length_m];
-                    let sound = sizes.iter().all(|size| size.is_finite() && *size > 0.0);
-                    if !(sound && angles.into_iter().all(|x| x.is_finite())) {
-                        let expected = "a mass and a length above zero, finite angles and rates";
-                        let field = format!("mechanism.links[{number}]");
-                        return Err(self.wrong(&field, link, expected.into()));
-                    }
+                    let field = |what: &str| format!("mechanism.links[{number}].{what}");
+                    self.positive(&field("mass_kg"), link.mass_kg)?;
+                    self.positive(&field("length_m"), link.length_m)?;
+                    self.finite(&field("angles_deg"), &link.angles_deg)?;
+                    self.finite(&field("rates_deg_s"), &link.rates_deg_s)?;
                 }
             }
         }

@@ -4,11 +4,12 @@ use crate::contact::{Floor, YieldingBox};
 use crate::plant::ThrownBlock;
 use serde::{Deserialize, Serialize};
 
-/// A force on the central body's centre of mass, for a while.
+/// A force on the central body's centre of mass, for a while. In each step it acts with the share of the step that it
+/// lasts, so that its impulse is exact, however short it is.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Push {
-    /// When it begins, s.
+    /// When it begins, s; zero or more.
     pub at_s: f64,
     /// How long it lasts, s.
     pub duration_s: f64,

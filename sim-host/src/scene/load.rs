@@ -2,11 +2,14 @@
 
 use super::builtin::BUILT_IN;
 use super::check::check;
+use super::source::Source;
 use super::{Initial, MechanismScene, Scene};
 use crate::plant::PlantState;
 use nalgebra::Vector3;
+use serde::de::DeserializeOwned;
 use std::path::Path;
 use surefoot::spatial::Quaternion;
+use toml::de::Deserializer;
 
 /// Why there is no scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -28,21 +31,31 @@ pub enum SceneError {
         reason: String,
     },
     /// The file is not a scene.
-    #[error("{name}: {message}")]
+    #[error("{name}:{line}: {message}")]
     Syntax {
-        /// The scene.
+        /// The file, or the scene's name.
         name: String,
-        /// Line, what was found and what was expected.
+        /// In the file, from 1.
+        line: usize,
+        /// The field, what was found and what was expected.
         message: String,
     },
-    /// A value makes no sense.
-    #[error("{name}: {field} = {value}: expected {expected}")]
-    Value {
+    /// The scene is of the other kind.
+    #[error("{name}: a mechanism without a controller; expected a robot")]
+    NotARobot {
         /// The scene.
         name: String,
+    },
+    /// A value makes no sense.
+    #[error("{name}{}: {field}{}: expected {expected}", at_line(.line), assigned(.value))]
+    Value {
+        /// The file, or the scene's name.
+        name: String,
+        /// In the file, from 1, if the value is one of a file.
+        line: Option<usize>,
         /// Path of the field in the file.
         field: String,
-        /// What it holds.
+        /// What it holds; empty for what is left out, and for tables.
         value: String,
         /// What would be right.
         expected: String,
@@ -54,6 +67,14 @@ fn advice(nearest: &Option<&'static str>) -> String {
         Some(name) => format!(" (did you mean '{name}'? `surefoot list` shows all)"),
         None => " (`surefoot list` shows all)".to_owned(),
     }
+}
+
+fn at_line(line: &Option<usize>) -> String {
+    line.map_or_else(String::new, |line| format!(":{line}"))
+}
+
+fn assigned(value: &str) -> String {
+    if value.is_empty() { String::new() } else { format!(" = {value}") }
 }
 
 /// A scene of either kind.
@@ -99,7 +120,7 @@ pub fn open(name: &str) -> Result<AnyScene, SceneError> {
         reason: error.to_string(),
     })?;
     let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
-    parse(stem, &text)
+    parse_at(name, stem, &text)
 }
 
 /// The same, of a robot.
@@ -109,34 +130,37 @@ pub fn open(name: &str) -> Result<AnyScene, SceneError> {
 pub fn load(name: &str) -> Result<Scene, SceneError> {
     match open(name)? {
         AnyScene::Robot(scene) => Ok(*scene),
-        AnyScene::Mechanism(scene) => Err(SceneError::Syntax {
-            name: scene.name,
-            message: "a mechanism without a controller; expected a robot".to_owned(),
-        }),
+        AnyScene::Mechanism(scene) => Err(SceneError::NotARobot { name: scene.name }),
     }
 }
 
 /// A scene from its text, checked. One with a table `mechanism` is a mechanism's.
 ///
 /// # Errors
-/// [`SceneError::Syntax`] with the line, or [`SceneError::Value`].
+/// [`SceneError::Syntax`] or [`SceneError::Value`], with the line.
 pub fn parse(name: &str, text: &str) -> Result<AnyScene, SceneError> {
-    let syntax = |error: toml::de::Error| SceneError::Syntax {
-        name: name.to_owned(),
-        message: error.to_string().trim_end().to_owned(),
-    };
-    let table: toml::Table = toml::from_str(text).map_err(syntax)?;
-    if table.contains_key("mechanism") {
-        let mut scene: MechanismScene = toml::from_str(text).map_err(syntax)?;
+    parse_at(name, name, text)
+}
+
+/// The same of the text at a place that messages name.
+fn parse_at(place: &str, name: &str, text: &str) -> Result<AnyScene, SceneError> {
+    let source = Source::parse(place, text)?;
+    source.check_numbers()?;
+    let scene = if source.has("mechanism") {
+        let mut scene: MechanismScene = deserialized(&source)?;
         name.clone_into(&mut scene.name);
-        scene.is_unadvised = !table.contains_key("integrator");
-        scene.check()?;
-        return Ok(AnyScene::Mechanism(scene));
-    }
-    let mut scene: Scene = toml::from_str(text).map_err(syntax)?;
-    name.clone_into(&mut scene.name);
-    check(&scene)?;
-    Ok(AnyScene::Robot(Box::new(scene)))
+        scene.is_unadvised = !source.has("integrator");
+        scene.check().map(|()| AnyScene::Mechanism(scene))
+    } else {
+        let mut scene: Scene = deserialized(&source)?;
+        name.clone_into(&mut scene.name);
+        check(&scene).map(|()| AnyScene::Robot(Box::new(scene)))
+    };
+    scene.map_err(|error| source.locate(error))
+}
+
+fn deserialized<T: DeserializeOwned>(source: &Source<'_>) -> Result<T, SceneError> {
+    T::deserialize(Deserializer::from(source.document())).map_err(|error| source.syntax(&error))
 }
 
 impl Scene {

@@ -50,7 +50,7 @@ impl MotionMatters {
 
 /// What moves, and from where.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Mechanism {
     /// A free rigid body in unit quaternions.
     RigidBody {
@@ -144,6 +144,9 @@ impl MechanismScene {
     /// [`SceneError::Value`] for a mechanism without links, or more than there may be.
     pub fn with_links(mut self, number: usize) -> Result<Self, SceneError> {
         match &mut self.mechanism {
+            Mechanism::Pendulum { .. } if !(1..=MOST_LINKS).contains(&number) => {
+                return Err(self.wrong("--links", number, format!("1 to {MOST_LINKS} links")));
+            }
             Mechanism::Pendulum { links, .. } => {
                 if let Some(last) = links.last().copied() {
                     links.resize(number, last);
@@ -166,7 +169,7 @@ impl MechanismScene {
         expected: String,
     ) -> SceneError {
         let (name, field) = (self.name.clone(), field.to_owned());
-        SceneError::Value { name, field, value: format!("{value:?}"), expected }
+        SceneError::Value { name, line: None, field, value: format!("{value:?}"), expected }
     }
 }
 

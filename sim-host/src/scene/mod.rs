@@ -8,17 +8,22 @@ mod check_hardware;
 mod check_mechanism;
 mod disturbance;
 mod hardware;
+mod inertia;
 mod load;
 mod mechanism;
 mod multibody;
 mod rung;
+mod source;
+mod warnings;
 
 pub use builtin::{BuiltIn, built_in};
 pub use disturbance::{Block, Push, StruckBox};
 pub use hardware::{Acting, JointStops, Sensing};
 pub use load::{AnyScene, SceneError, load, open, parse};
 pub use mechanism::{Flight, Link, MOST_LINKS, Mechanism, MechanismScene, MotionMatters};
-pub use multibody::{BodyEntry, BuildError, JointEntry, LoopEntry, Misdescribed, Multibody};
+pub use multibody::{
+    BodyEntry, BuildError, JointEntry, LoopEntry, LoopJoint, Misdescribed, Multibody,
+};
 pub use rung::{LUMPED_DEVIATION_M, Matters, ModelChoice, Rung};
 
 use crate::contact::Floor;
@@ -70,12 +75,17 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// What all pushes do to the central body at a time, world frame; `None` where there is none.
-    pub fn push(&self, time_s: f64) -> Option<Wrench<f64>> {
+    /// What all pushes do to the central body on average from one time to a later one, world frame; `None` where there
+    /// is none. Each counts by the share of that time in which it acts, so that its impulse is exact.
+    pub fn push(&self, from_s: f64, to_s: f64) -> Option<Wrench<f64>> {
         self.pushes
             .iter()
-            .filter(|push| (push.at_s..push.at_s + push.duration_s).contains(&time_s))
-            .map(|push| Wrench { force: push.force_n.into(), torque: Vector3::zeros() })
+            .map(|push| {
+                let acts = (push.at_s + push.duration_s).min(to_s) - push.at_s.max(from_s);
+                (acts / (to_s - from_s), Vector3::from(push.force_n))
+            })
+            .filter(|(share, _)| *share > 0.0)
+            .map(|(share, force)| Wrench { force: force * share, torque: Vector3::zeros() })
             .reduce(|a, b| a + b)
     }
 }
@@ -165,7 +175,7 @@ pub enum TorquesFrom {
 
 /// What the feet stand on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "on", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Feet {
     /// A floor that they can leave and slide on.
     Floor {

@@ -4,6 +4,7 @@ use super::loop_limits::fingerprint;
 use super::maps::{Column, Map};
 use super::problem::Problem;
 use super::scan::Limit;
+use crate::written::write_text;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -89,10 +90,7 @@ impl<Part: Clone + Serialize + DeserializeOwned> PartStore<Part> {
     pub fn keep(&self, parts: &Parts<Part>) -> Result<(), PartStoreError> {
         let finished = Finished { fingerprint: self.fingerprint.clone(), parts: parts.clone() };
         let text = serde_json::to_string(&finished).map_err(|error| self.error(&error))?;
-        let draft = self.path.with_extension("draft");
-        std::fs::write(&draft, text)
-            .and_then(|()| std::fs::rename(&draft, &self.path))
-            .map_err(|error| self.error(&error))
+        write_text(&self.path, &text).map_err(|error| self.error(&error))
     }
 
     /// Takes the file away.

@@ -2,6 +2,8 @@
 //! what, where and what was expected.
 
 mod charts;
+mod documented;
+mod files;
 mod mechanisms;
 mod program;
 mod reproduced;

@@ -191,7 +191,7 @@ fn a_wrong_mechanism_is_refused_with_its_place() {
         (1, "length_m = 0.5", "length_m = -0.5", ["links[0]", "above zero"]),
         (1, "step_s = 2e-2", "step_s = 0.0", ["integrator.step_s", "above zero"]),
         (1, "accuracy = 1e-4", "accuracy = 1.5", ["matters.accuracy", "between"]),
-        (1, "duration_s = 20.0", "duration_s = nan", ["duration_s", "above zero"]),
+        (1, "duration_s = 20.0", "duration_s = nan", ["duration_s", "finite"]),
     ] {
         assert!(scenes[scene].contains(line), "{line}");
         let path = folder.join("wrong.toml");
@@ -202,5 +202,28 @@ fn a_wrong_mechanism_is_refused_with_its_place() {
         for word in words {
             assert!(stderr.contains(word), "{by:?} says {stderr:?}, without {word:?}");
         }
+    }
+}
+
+/// Iterations of a step are those of all its stages: no mean is above the most.
+#[test]
+fn no_step_takes_fewer_iterations_than_the_mean() {
+    let folder = folder("iterations");
+    for (scene, method) in [
+        ("n-pendulum", "variational"),
+        ("n-pendulum", "yoshida-4"),
+        ("n-pendulum", "yoshida-6"),
+        ("n-pendulum", "rattle"),
+        ("n-pendulum", "shake"),
+        ("chain", "variational"),
+        ("chain", "yoshida-4"),
+        ("box-drop", "variational"),
+    ] {
+        let all = ["run", scene, "--integrator", method, "--step", "2e-3", "--duration", "0.5"];
+        let (_, stdout, stderr) = said(&surefoot(&folder, &[&all[..], &["--json"]].concat()));
+        let document: Value = serde_json::from_str(&stdout).expect("one document");
+        let number = |key: &str| document["newton"][key].as_f64().expect("a number");
+        let (mean, most) = (number("mean"), number("max"));
+        assert!(mean > 0.0 && mean <= most, "{scene}, {method}: {mean} of {most} {stderr}");
     }
 }

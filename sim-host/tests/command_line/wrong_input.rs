@@ -54,8 +54,8 @@ fn bad_input_is_refused_before_anything_runs() {
 fn a_wrong_scene_file_is_refused_at_its_line() {
     let folder = folder("scene-files");
     for (line, by, words) in [
-        ("rate_hz = 500.0", "rate_hz = nan", vec!["rate_hz", "NaN"]),
-        ("rate_hz = 500.0", "rate_hz = \"fast\"", vec!["rate_hz", "line", "fast"]),
+        ("rate_hz = 500.0", "rate_hz = nan", vec!["rate_hz = nan", "finite"]),
+        ("rate_hz = 500.0", "rate_hz = \"fast\"", vec![".toml:", "controller.rate_hz", "fast"]),
         ("rate_hz = 500.0", "rate_Hz = 500.0", vec!["rate_Hz", "rate_hz"]),
         ("turn_deg = 5.0", "", vec!["turn_deg"]),
         ("duration_s = 3.0", "duration_s = 3.0.0", vec!["line 3"]),

@@ -12,7 +12,7 @@ fn written_and_read(saved: Option<SavedRun>, name: &str) -> SavedRun {
     let path = folder.join(format!("{name}.json"));
     let saved = saved.expect("a run that can be saved");
     saved.write(&path).expect("written");
-    let read = SavedRun::read(&path).expect("read").of_scene(name).expect("the same scene");
+    let read = SavedRun::read(&path).expect("read");
     assert_eq!(read, saved);
     std::fs::remove_dir_all(&folder).expect("removed");
     read
@@ -83,13 +83,19 @@ fn what_belongs_to_another_run_is_refused() {
     };
     let (chain, of_chain) = saved("chain");
     let (_, of_box) = saved("box-drop");
-    let refused = of_chain.clone().of_scene("box-drop").expect_err("another scene");
-    assert!(refused.contains("chain") && refused.contains("box-drop"), "{refused}");
-    // Under a false name its sizes give it away; and a step of another length does.
-    assert!(mechanism::run_from(&chain, Some(&of_box), &mut |_| {}).is_err());
-    let mut slower = chain;
+    let refused = |scene: &MechanismScene, saved: &SavedRun| {
+        let run = mechanism::run_from(scene, Some(saved), &mut |_| {});
+        run.expect_err("another motion").to_string()
+    };
+    assert!(refused(&chain, &of_box).contains("mechanism"));
+    let mut slower = chain.clone();
     slower.integrator.step_s *= 2.0;
-    assert!(mechanism::run_from(&slower, Some(&of_chain), &mut |_| {}).is_err());
+    let difference = refused(&slower, &of_chain);
+    assert!(difference.contains("integrator.step_s = 0.001, not 0.002"), "{difference}");
+    // A scene that says the same under another name is the same motion.
+    let mut renamed = chain;
+    (renamed.name, renamed.description) = ("another".into(), "the same chain".into());
+    mechanism::run_from(&renamed, Some(&of_chain), &mut |_| {}).expect("the same motion");
     let missing = SavedRun::read(std::path::Path::new("no/such/file.json")).expect_err("no file");
     assert!(missing.contains("no/such/file.json"), "{missing}");
 }

@@ -3,6 +3,7 @@
 mod browser;
 mod budget;
 mod doc_tests;
+mod documented;
 mod firmware;
 mod panic_free;
 mod record;
@@ -44,13 +45,16 @@ enum Stage {
     Firmware,
     /// The firmware's instructions, stack, flash and RAM against their budget.
     Budget,
+    /// Commands of the documents that take minutes or other simulators, each as it stands; only when named.
+    Documented,
 }
 
 impl Options {
     fn wants(&self, stage: Stage) -> bool {
-        let on_host = [Stage::Tests, Stage::DocTests, Stage::Browser, Stage::Unused];
-        let needs_target = !on_host.contains(&stage);
-        (self.only.is_empty() || self.only.contains(&stage)) && !(needs_target && self.skip_target)
+        let on_target = [Stage::Target, Stage::PanicFree, Stage::Firmware, Stage::Budget];
+        let is_default = self.only.is_empty() && stage != Stage::Documented;
+        let is_left_out = self.skip_target && on_target.contains(&stage);
+        (is_default || self.only.contains(&stage)) && !is_left_out
     }
 }
 
@@ -86,6 +90,9 @@ pub fn run(options: &Options) -> Result<()> {
                 record.stage("budget", || budget::run(arm));
             }
         }
+    }
+    if options.wants(Stage::Documented) {
+        record.stage("documented", || documented::run("documented"));
     }
     record.finish()
 }

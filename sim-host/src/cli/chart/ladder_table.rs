@@ -4,6 +4,7 @@ use crate::callgrind::word;
 use crate::chart::{Bar, Bars};
 use crate::parsimony::{Ladder, MechanismLadder, MechanismRung, Rung, Saving};
 use crate::report::Figure;
+use crate::written::{write_rows, write_text};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -192,17 +193,11 @@ impl LadderTable {
     ) -> Result<Vec<PathBuf>, String> {
         let named = |ending: &str| folder.join(format!("parsimony-{}.{ending}", self.scene));
         let (csv, json, svg) = (named("csv"), named("json"), named("svg"));
-        let context =
-            |path: &Path, error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-        let mut writer = csv::Writer::from_path(&csv).map_err(|error| context(&csv, &error))?;
-        for line in &self.lines {
-            writer.serialize(line).map_err(|error| context(&csv, &error))?;
-        }
-        writer.flush().map_err(|error| context(&csv, &error))?;
-        let document =
-            serde_json::to_string_pretty(ladder).map_err(|error| context(&json, &error))?;
-        std::fs::write(&json, document + "\n").map_err(|error| context(&json, &error))?;
-        std::fs::write(&svg, drawing).map_err(|error| context(&svg, &error))?;
+        write_rows(&csv, |writer| self.lines.iter().try_for_each(|line| writer.serialize(line)))?;
+        let document = serde_json::to_string_pretty(ladder)
+            .map_err(|error| format!("{}: {error}", json.display()))?;
+        write_text(&json, &(document + "\n"))?;
+        write_text(&svg, drawing)?;
         Ok(vec![csv, json, svg])
     }
 

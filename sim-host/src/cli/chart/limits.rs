@@ -1,9 +1,11 @@
 //! `surefoot chart stability --scene`: the limits of a control loop.
 
+use super::super::complain;
 use super::{Made, Options, limits_table as table, this_program};
 use crate::report::plain_chapter;
 use crate::scene::{AnyScene, Scene, open};
 use crate::stability::loop_limits::{Cell, Criterion, Loop, Quantity, Store, Survey};
+use crate::written::write_text;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -68,7 +70,8 @@ fn find(survey: &Survey, options: &Options) -> Result<Vec<Cell>, String> {
     let taken_up = survey.missing(&known);
     let all = survey.work().len();
     if taken_up.len() < all {
-        eprintln!("{} of {all} limits taken up from {}", all - taken_up.len(), path.display());
+        let taken_up = all - taken_up.len();
+        complain(format_args!("{taken_up} of {all} limits taken up from {}", path.display()));
     }
     let bar = bar(all);
     let cells = survey
@@ -95,8 +98,7 @@ fn named(folder: &Path, scene: &Scene, ending: &str) -> PathBuf {
 fn write_files(folder: &Path, survey: &Survey, cells: &[Cell]) -> Result<Vec<PathBuf>, String> {
     let csv = named(folder, survey.scene, "csv");
     let json = named(folder, survey.scene, "json");
-    table::write_csv(&csv, survey, cells).map_err(|error| format!("{}: {error}", csv.display()))?;
-    std::fs::write(&json, format!("{:#}\n", table::json(survey, cells)))
-        .map_err(|error| format!("{}: {error}", json.display()))?;
+    table::write_csv(&csv, survey, cells)?;
+    write_text(&json, &format!("{:#}\n", table::json(survey, cells)))?;
     Ok(vec![csv, json])
 }

@@ -5,6 +5,7 @@ use crate::stability::loop_limits::{
     ACCELEROMETER_NOISE, Cell, Footing, Found, GYROSCOPE_NOISE, HALVINGS, Loop, Manner, Quantity,
     RUNAWAY, Survey, Tolerance,
 };
+use crate::written::write_rows;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -274,12 +275,8 @@ fn rows(survey: &Survey, cells: &[Cell]) -> Vec<Row> {
 }
 
 /// One row a limit.
-pub(super) fn write_csv(path: &Path, survey: &Survey, cells: &[Cell]) -> Result<(), csv::Error> {
-    let mut writer = csv::Writer::from_path(path)?;
-    for row in rows(survey, cells) {
-        writer.serialize(row)?;
-    }
-    Ok(writer.flush()?)
+pub(super) fn write_csv(path: &Path, survey: &Survey, cells: &[Cell]) -> Result<(), String> {
+    write_rows(path, |writer| rows(survey, cells).iter().try_for_each(|row| writer.serialize(row)))
 }
 
 /// Everything, searches at all steps included.

@@ -3,6 +3,7 @@
 use super::map_picture::picture;
 use crate::stability::maps::{Column, Failure, Foretold, Map, Outcome, maps, survey, tally, tell};
 use crate::stability::{MapStore, Tally};
+use crate::written::write_rows;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -85,8 +86,7 @@ impl Mapped {
             let drawing = folder.join(format!("map-{}.svg", map.name));
             picture(map, columns).draw(&drawing).map_err(|error| error.to_string())?;
             let table = folder.join(format!("map-{}.csv", map.name));
-            write_csv(&table, map, columns)
-                .map_err(|error| format!("{}: {error}", table.display()))?;
+            write_rows(&table, |writer| rows(writer, map, columns))?;
             files.extend([drawing, table]);
         }
         Ok(files)
@@ -111,8 +111,11 @@ impl Mapped {
     }
 }
 
-fn write_csv(path: &Path, map: &Map, columns: &[Column]) -> Result<(), csv::Error> {
-    let mut writer = csv::Writer::from_path(path)?;
+fn rows<W: std::io::Write>(
+    writer: &mut csv::Writer<W>,
+    map: &Map,
+    columns: &[Column],
+) -> Result<(), csv::Error> {
     for column in columns {
         for (y, cell) in map.y.values().zip(&column.cells) {
             let failure = match cell {
@@ -133,5 +136,5 @@ fn write_csv(path: &Path, map: &Map, columns: &[Column]) -> Result<(), csv::Erro
             })?;
         }
     }
-    Ok(writer.flush()?)
+    Ok(())
 }

@@ -14,6 +14,7 @@ use super::{bad_input, say};
 use crate::precision::machine;
 use crate::report::{Chapter, charts_page};
 use crate::stability::loop_limits::Quantity;
+use crate::written::write_text;
 use clap::Parser;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -101,16 +102,14 @@ struct Made {
 pub fn chart(options: &Options) -> ExitCode {
     match make(options) {
         Ok((made, page)) => {
-            if options.json {
-                say(&format!("{:#}\n", document(made, &page)));
+            let text = if options.json {
+                format!("{:#}\n", document(made, &page))
             } else {
-                for one in &made {
-                    say(&one.text);
-                }
+                let texts: String = made.iter().map(|one| one.text.as_str()).collect();
                 // The page links to the others.
-                say(&format!("\nwritten: {}\n", page.display()));
-            }
-            ExitCode::SUCCESS
+                format!("{texts}\nwritten: {}\n", page.display())
+            };
+            say(&text, ExitCode::SUCCESS)
         }
         Err(message) => bad_input(&message, options.json),
     }
@@ -136,7 +135,7 @@ fn make(options: &Options) -> Result<(Vec<Made>, PathBuf), String> {
     let chapters: Vec<Chapter> = made.iter().map(|one| one.chapter.clone()).collect();
     let page = charts_page(&chapters, &machine()).map_err(|error| error.to_string())?;
     let path = folder.join(name).with_extension("html");
-    std::fs::write(&path, page).map_err(|error| format!("{}: {error}", path.display()))?;
+    write_text(&path, &page)?;
     Ok((made, path))
 }
 

@@ -1,10 +1,12 @@
 //! `surefoot chart work-precision`
 
+use super::super::complain;
 use super::{Made, Options, this_program};
 use crate::precision::{
     ControllerPrecision, Effort, Mujoco, PROBLEMS, Survey, controller_figures,
     controller_precision, figures, file_of, machine, precision_chapter, survey, write_rows,
 };
+use crate::written::write_text;
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -39,7 +41,7 @@ fn find(names: &[&str], options: &Options) -> Result<Vec<Survey>, String> {
     let program = this_program()?;
     let peers = options.peers.then(|| Mujoco::start().map(Arc::new));
     if let Some(Err(error)) = &peers {
-        eprintln!("without peers: {error}");
+        complain(format_args!("without peers: {error}"));
     }
     let bar = ProgressBar::new_spinner();
     bar.enable_steady_tick(Duration::from_millis(500));
@@ -64,7 +66,7 @@ fn write_files(
     let mut files = Vec::new();
     let mut put = |name: String, text: &str| -> Result<(), String> {
         let path = folder.join(name);
-        std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+        write_text(&path, text)?;
         files.push(path);
         Ok(())
     };

@@ -4,6 +4,7 @@ use crate::report::{StepRow, StepTable};
 use crate::stability::{
     Agreement, FailureKind, Limit, RATIO, Scan, ScanStore, all_problems, scan_problems,
 };
+use crate::written::write_rows;
 use indicatif::ProgressBar;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -104,11 +105,6 @@ pub(super) fn agreement(limit: &Limit) -> String {
 
 pub(super) fn write_csv(folder: &Path, scan: &Scan) -> Result<PathBuf, String> {
     let path = folder.join("stability.csv");
-    let context = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-    let mut writer = csv::Writer::from_path(&path).map_err(|error| context(&error))?;
-    for limit in &scan.limits {
-        writer.serialize(limit).map_err(|error| context(&error))?;
-    }
-    writer.flush().map_err(|error| context(&error))?;
+    write_rows(&path, |writer| scan.limits.iter().try_for_each(|limit| writer.serialize(limit)))?;
     Ok(path)
 }

@@ -5,10 +5,13 @@ use super::description::tree_model;
 use super::equations::{Rates, TreeModel};
 use crate::integrators::{Method, Progress, StartError, StepError, StepFailure};
 use crate::multibody::{BodyState, Simulation, System};
+use crate::newton::NewtonFailure;
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use std::cell::Cell;
 use surefoot::dynamics::DynamicsFault;
 
+/// Coordinates and velocities stay below this, or have run away.
+const LARGEST: f64 = 1e100;
 /// Adaptive steps within a step at most.
 const MOST_ADAPTIVE_STEPS: usize = 100_000;
 
@@ -145,10 +148,17 @@ fn moved(from: &[f64], along: &[f64], by: f64) -> Vec<f64> {
 
 impl Moving for OnTree {
     fn step(&mut self) -> Result<(), StepError> {
+        let before = (self.positions.clone(), self.velocities.clone());
         match self.method {
             TreeMethod::SemiImplicitEuler => self.euler()?,
             TreeMethod::RungeKutta4 => self.runge_kutta()?,
             TreeMethod::DormandPrince8(tolerance) => self.dormand_prince(tolerance)?,
+        }
+        // Energies are squares of these.
+        let bears = |x: &f64| x.abs() < LARGEST;
+        if !self.positions.iter().chain(&self.velocities).all(bears) {
+            (self.positions, self.velocities) = before;
+            return Err(self.progress.error(NewtonFailure::NotFinite));
         }
         if let Some(first) = self.model.quaternion() {
             let q = &mut self.positions[first..first + 4];

@@ -29,17 +29,23 @@ impl Multibody {
     /// # Errors
     /// A [`BuildError`] with the field's name.
     pub fn start(&self, h: f64) -> Result<Simulation, BuildError> {
+        self.check()?;
         let (mut links, mut frames, mut sites) = (Vec::new(), Vec::<Frame>::new(), Vec::new());
         for (k, entry) in self.bodies.iter().enumerate() {
             let field = |what: &str| format!("mechanism.bodies[{k}].{what}");
             let inboard = match &entry.inboard {
                 None => None,
                 Some(name) => Some(self.index(name, k).ok_or_else(|| {
-                    wrong(field("inboard"), format!("the name of an earlier body, not {name:?}"))
+                    Misdescribed::new(
+                        field("inboard"),
+                        format!("the name of an earlier body, not {name:?}"),
+                    )
                 })?),
             };
             if self.index(&entry.name, k).is_some() {
-                return Err(wrong(field("name"), "a name that no other body has").into());
+                return Err(
+                    Misdescribed::new(field("name"), "a name that no other body has").into()
+                );
             }
             let on = inboard.map_or(WORLD, |i| frames[i]);
             let mut frame = Frame {
@@ -47,7 +53,7 @@ impl Multibody {
                 orientation: unit(entry.orientation, &field("orientation"))?,
                 ..WORLD
             };
-            let joint = joint(&entry.joint, &frame, &on, &field("joint"))?;
+            let joint = joint(&entry.joint, &frame, &on);
             set_velocity(&entry.joint, &mut frame, &on);
             let body = Body { mass: entry.mass_kg, inertia: entry.inertia_kg_m2 };
             links.push(Link { inboard, joint, body });
@@ -63,14 +69,8 @@ impl Multibody {
         for (number, entry) in self.loops.iter().enumerate() {
             system = system.with_closure(self.closure(number, entry, &frames)?)?;
         }
-        match self.floor {
-            Some(floor) => system = system.on_floor(floor, self.switching, sites)?,
-            None if !sites.is_empty() => {
-                return Err(
-                    wrong("mechanism.floor".to_owned(), "a floor for the contact points").into()
-                );
-            }
-            None => {}
+        if let Some(floor) = self.floor {
+            system = system.on_floor(floor, self.switching, sites)?;
         }
         let (states, rates): (Vec<BodyState>, Vec<BodyState>) =
             frames.iter().map(Frame::state_and_rate).unzip();
@@ -94,16 +94,17 @@ impl Multibody {
     ) -> Result<Closure, Misdescribed> {
         let field = |what: &str| format!("mechanism.loops[{number}].{what}");
         let find = |name: &String| {
-            self.index(name, self.bodies.len())
-                .ok_or_else(|| wrong(field("between"), format!("names of bodies, not {name:?}")))
+            self.index(name, self.bodies.len()).ok_or_else(|| {
+                Misdescribed::new(field("between"), format!("names of bodies, not {name:?}"))
+            })
         };
         let (outboard, inboard) = match &entry.between[..] {
             [a] => (find(a)?, None),
             [a, b] => (find(a)?, Some(find(b)?)),
-            _ => return Err(wrong(field("between"), "one or two names")),
+            _ => return Err(Misdescribed::new(field("between"), "one or two names")),
         };
         let on = inboard.map_or(WORLD, |i| frames[i]);
-        let joint = joint(&entry.joint, &frames[outboard], &on, &field("joint"))?;
+        let joint = joint(&entry.joint.into(), &frames[outboard], &on);
         Ok(Closure { outboard, inboard, closing: Closing::Joint(joint) })
     }
 }
@@ -117,48 +118,38 @@ impl Frame {
     }
 }
 
-/// A joint between two bodies where they are.
-fn joint(
-    entry: &JointEntry,
-    outboard: &Frame,
-    inboard: &Frame,
-    field: &str,
-) -> Result<Joint, Misdescribed> {
+/// A joint between two bodies where they are; its axes have a length.
+fn joint(entry: &JointEntry, outboard: &Frame, inboard: &Frame) -> Joint {
     let seen = |frame: &Frame, v: Vector3<f64>| frame.orientation.conjugate().rotate(v);
-    let axis = |axis: &[f64; 3], frame: &Frame| -> Result<[f64; 3], Misdescribed> {
-        let axis = Vector3::from(*axis);
-        let length = axis.norm();
-        if !(length > 1e-9 && length.is_finite()) {
-            return Err(wrong(format!("{field}.axis"), "an axis with a length"));
-        }
-        Ok(seen(frame, axis / length).into())
+    let axis = |axis: &[f64; 3], frame: &Frame| -> [f64; 3] {
+        seen(frame, Vector3::from(*axis).normalize()).into()
     };
     let center: [f64; 3] = outboard.center.into();
     let (point, constraint) = match entry {
         JointEntry::Floating { .. } => (center, JointConstraint::Floating),
         JointEntry::Fixed {} => (center, JointConstraint::Fixed),
         JointEntry::Revolute { point_m, axis: a, .. } => {
-            (*point_m, JointConstraint::Revolute { axis: axis(a, outboard)? })
+            (*point_m, JointConstraint::Revolute { axis: axis(a, outboard) })
         }
         JointEntry::Prismatic { axis: a, .. } => {
-            (center, JointConstraint::Prismatic { axis: axis(a, inboard)? })
+            (center, JointConstraint::Prismatic { axis: axis(a, inboard) })
         }
         JointEntry::Universal { point_m, axes: [a, b], .. } => {
             let constraint = JointConstraint::Universal {
-                inboard_axis: axis(a, inboard)?,
-                outboard_axis: axis(b, outboard)?,
+                inboard_axis: axis(a, inboard),
+                outboard_axis: axis(b, outboard),
             };
             (*point_m, constraint)
         }
         JointEntry::Spherical { point_m, .. } => (*point_m, JointConstraint::Spherical),
     };
     let point = Vector3::from(point);
-    Ok(Joint {
+    Joint {
         outboard: seen(outboard, point - outboard.center).into(),
         inboard: seen(inboard, point - inboard.center).into(),
         home: inboard.orientation.conjugate().product(outboard.orientation).to_array(),
         constraint,
-    })
+    }
 }
 
 /// Velocity of a body that its joint and its inboard body give it.
@@ -198,11 +189,7 @@ fn unit(q: [f64; 4], field: &str) -> Result<Quaternion<f64>, Misdescribed> {
     let norm = given.norm_squared().sqrt();
     let expected = || format!("a unit quaternion, scalar first (its norm is {norm})");
     if !((norm - 1.0).abs() < 1e-3) {
-        return Err(wrong(field.to_owned(), expected()));
+        return Err(Misdescribed::new(field.to_owned(), expected()));
     }
-    given.normalized().ok_or_else(|| wrong(field.to_owned(), expected()))
-}
-
-fn wrong(field: String, expected: impl Into<String>) -> Misdescribed {
-    Misdescribed { field, expected: expected.into() }
+    given.normalized().ok_or_else(|| Misdescribed::new(field.to_owned(), expected()))
 }

@@ -4,9 +4,13 @@
 //! way axes point. Joints' angles are counted from there.
 
 mod build;
+mod check;
+mod misdescribed;
+
+pub use misdescribed::{BuildError, Misdescribed};
 
 use crate::contact::{Floor, Switching};
-use crate::multibody::{JointLaw, SystemError};
+use crate::multibody::JointLaw;
 use serde::{Deserialize, Serialize};
 
 /// Bodies, joints, and what they touch.
@@ -51,7 +55,7 @@ pub struct BodyEntry {
     /// Its spring, damper and stops.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub law: Option<JointLaw>,
-    /// Held in the joint, N·m or N.
+    /// Held in the joint, N·m or N; of revolute and prismatic ones only.
     #[serde(default)]
     pub torque: f64,
     /// Points that can touch the floor, in the body's frame, m.
@@ -61,7 +65,7 @@ pub struct BodyEntry {
 
 /// A joint, with its velocity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum JointEntry {
     /// None: the body is free.
     Floating {
@@ -118,31 +122,61 @@ pub enum JointEntry {
 pub struct LoopEntry {
     /// The bodies that it joins; the second may be left out for the world.
     pub between: Vec<String>,
-    /// The joint; its velocity is that of the bodies, and must not be given.
-    pub joint: JointEntry,
+    /// The joint.
+    pub joint: LoopJoint,
+}
+
+/// A joint that closes a loop: where it is. Its velocity is that of its bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum LoopJoint {
+    /// No motion.
+    Fixed {},
+    /// About an axis through a point.
+    Revolute {
+        /// m
+        point_m: [f64; 3],
+        /// Of any length.
+        axis: [f64; 3],
+    },
+    /// Along an axis.
+    Prismatic {
+        /// Of any length.
+        axis: [f64; 3],
+    },
+    /// About two axes through a point, at a right angle.
+    Universal {
+        /// m
+        point_m: [f64; 3],
+        /// Fixed to the second, and to the first body.
+        axes: [[f64; 3]; 2],
+    },
+    /// About a point.
+    Spherical {
+        /// m
+        point_m: [f64; 3],
+    },
+}
+
+impl From<LoopJoint> for JointEntry {
+    /// At rest.
+    fn from(joint: LoopJoint) -> Self {
+        match joint {
+            LoopJoint::Fixed {} => Self::Fixed {},
+            LoopJoint::Revolute { point_m, axis } => {
+                Self::Revolute { point_m, axis, rate_rad_s: 0.0 }
+            }
+            LoopJoint::Prismatic { axis } => Self::Prismatic { axis, rate_m_s: 0.0 },
+            LoopJoint::Universal { point_m, axes } => {
+                Self::Universal { point_m, axes, rates_rad_s: [0.0; 2] }
+            }
+            LoopJoint::Spherical { point_m } => {
+                Self::Spherical { point_m, angular_velocity_rad_s: [0.0; 3] }
+            }
+        }
+    }
 }
 
 fn upright() -> [f64; 4] {
     [1.0, 0.0, 0.0, 0.0]
-}
-
-/// What is wrong with a description: a field and what was expected.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{field}: expected {expected}")]
-pub struct Misdescribed {
-    /// Which one.
-    pub field: String,
-    /// What it should be.
-    pub expected: String,
-}
-
-/// Why a description gives no motion.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum BuildError {
-    /// A field is wrong.
-    #[error(transparent)]
-    Field(#[from] Misdescribed),
-    /// The whole is no system.
-    #[error(transparent)]
-    System(#[from] SystemError),
 }

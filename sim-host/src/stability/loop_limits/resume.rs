@@ -5,6 +5,7 @@ use super::criterion::Criterion;
 use super::manner::{BEFORE_S, LEANING_DEG, RUNAWAY, RUNAWAY_TICKS, SLIP_M};
 use super::quantity::{ACCELEROMETER_NOISE, GYROSCOPE_NOISE, Quantity};
 use crate::scene::Scene;
+use crate::written::write_text;
 use serde::{Deserialize, Serialize};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -81,10 +82,7 @@ impl Store {
     pub fn keep(&self, cells: &[Cell]) -> Result<(), StoreError> {
         let finished = Finished { fingerprint: self.fingerprint.clone(), cells: cells.to_vec() };
         let text = serde_json::to_string_pretty(&finished).map_err(|error| self.error(&error))?;
-        let draft = self.path.with_extension("draft");
-        std::fs::write(&draft, text)
-            .and_then(|()| std::fs::rename(&draft, &self.path))
-            .map_err(|error| self.error(&error))
+        write_text(&self.path, &text).map_err(|error| self.error(&error))
     }
 
     /// Takes the file away.
