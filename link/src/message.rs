@@ -9,7 +9,7 @@ use surefoot::spatial::{Quaternion, Twist};
 /// Legs of the robot on the link.
 pub const LEGS: usize = 2;
 /// Joints of a leg.
-const LEG: usize = 6;
+pub(crate) const LEG: usize = 6;
 
 /// From host to target.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,7 +25,13 @@ pub enum ToTarget {
     /// Zero torques. Acknowledged.
     Disarm,
     /// One measurement. Answered by [`FromTarget::Torques`] when a tick has used it.
-    Sensors(Sensors),
+    Sensors {
+        /// When it was taken, by the sender's clock, µs. A free-running target refuses one that has
+        /// been on its way for longer than a period; in lock step nobody reads it.
+        taken_us: u32,
+        /// What was measured.
+        sensors: Sensors,
+    },
     /// How are you? Answered by [`FromTarget::Status`].
     Status,
     /// What does each stage of a tick cost, for this measurement? Answered by
@@ -63,6 +69,10 @@ pub enum Acknowledged {
     Invalid,
     /// This build does not do that.
     Unsupported,
+    /// The period is shorter than the line needs for a measurement: this much, µs.
+    TooFast(u32),
+    /// The period is longer than the target's timer counts: this much, µs.
+    TooSlow(u32),
 }
 
 /// What a cost is counted in.
@@ -85,6 +95,30 @@ pub struct Identity {
     pub resets: u32,
     /// Mode in which the last reset came, if the log has survived it.
     pub mode_at_reset: Option<Mode>,
+    /// What it is clocked by.
+    pub clock: Clock,
+}
+
+/// What a target is clocked by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Clock {
+    /// A crystal of this many MHz.
+    Crystal(u8),
+    /// The chip's own oscillator, of some per cent, which the line may not bear.
+    Internal(NoCrystal),
+    /// An emulator's.
+    Emulated,
+}
+
+/// Why a target does without its crystal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum NoCrystal {
+    /// It does not oscillate.
+    Silent,
+    /// It has this many kHz, to some per cent, which no crystal has that the board knows.
+    Unknown(u16),
+    /// The clock's multiplier does not follow it.
+    Unlocked,
 }
 
 /// How time goes.
@@ -163,8 +197,12 @@ pub struct Status {
     pub received: Tally,
     /// Records of ticks that found the telemetry queue full.
     pub telemetry_dropped: u32,
-    /// Measurements that found their queue full.
-    pub measurements_dropped: u32,
+    /// Measurements in whose place a tick took a newer one.
+    pub measurements_replaced: u32,
+    /// Measurements that had been on their way for too long, or came again.
+    pub measurements_stale: u32,
+    /// What the UART found wrong.
+    pub line: LineErrors,
     /// Ticks that took longer than their period.
     pub overruns: u32,
     /// Torques cut to their limits.
@@ -173,6 +211,21 @@ pub struct Status {
     pub stack_bytes: u32,
     /// What has survived resets.
     pub log: FaultLog,
+}
+
+/// What a UART has found wrong since the reset, in bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LineErrors {
+    /// Came before the last was taken; at least this many are lost.
+    pub overrun: u32,
+    /// Without a stop bit: another baud rate, or a break.
+    pub framing: u32,
+    /// With samples of a bit that differ.
+    pub noise: u32,
+    /// Of the wrong parity, where the line has any.
+    pub parity: u32,
+    /// Came while the queue to the application was full.
+    pub unqueued: u32,
 }
 
 /// The log that survives a reset.
@@ -184,6 +237,32 @@ pub struct FaultLog {
     pub mode_at_reset: Option<Mode>,
     /// Last stops, oldest first.
     pub stops: Vec<LoggedFault, 8>,
+    /// Resets after a [`Crash`].
+    pub crashes: u32,
+    /// The last of them.
+    pub crash: Option<Crash>,
+}
+
+/// What the program ended of, with motors off and a reset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Crash {
+    /// A panic, at this line of some file.
+    Panic {
+        /// Line.
+        line: u32,
+    },
+    /// A hard fault, or a memory, bus or usage fault, which become hard faults.
+    HardFault {
+        /// Address of the instruction.
+        at: u32,
+        /// Configurable Fault Status Register (ARMv7-M B3.2.15), which names the kind.
+        status: u32,
+    },
+    /// An exception (below 0; −14 is a crystal that has failed) or an interrupt that nothing handles.
+    Unhandled {
+        /// Its number.
+        number: i16,
+    },
 }
 
 /// One stop.
@@ -225,6 +304,8 @@ pub enum Injection {
     Reset,
     /// Power fails for longer: a reset, the memory loses its contents.
     ResetAndForget,
+    /// The program ends of this, whatever the numbers in it.
+    Crash(Crash),
     /// Ends the emulator.
     Exit,
 }
@@ -255,6 +336,11 @@ impl From<&RobotState<f32, LEGS>> for Sensors {
 }
 
 impl Settings {
+    /// Time between ticks, µs.
+    pub fn period_us(&self) -> u32 {
+        (self.period * 1e6 + 0.5) as u32
+    }
+
     /// Whether all numbers make sense.
     pub fn is_valid(&self) -> bool {
         let positive = |x: f32| x.is_finite() && x > 0.0;
@@ -277,5 +363,30 @@ impl SetPoint {
     pub fn is_valid(&self) -> bool {
         let norm: f32 = self.orientation.iter().map(|x| x * x).sum();
         self.position.iter().all(|x| x.is_finite()) && (norm - 1.0).abs() < 2e-3
+    }
+}
+
+impl core::fmt::Display for Acknowledged {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Done => f.write_str("done"),
+            Self::Busy => f.write_str("not in this mode"),
+            Self::Invalid => f.write_str("numbers out of range"),
+            Self::Unsupported => f.write_str("this firmware does not do that"),
+            Self::TooFast(us) => {
+                write!(f, "a measurement a tick needs periods of {us} µs or more on this line")
+            }
+            Self::TooSlow(us) => write!(f, "its timer counts periods of up to {us} µs"),
+        }
+    }
+}
+
+impl core::fmt::Display for NoCrystal {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Silent => f.write_str("it does not oscillate"),
+            Self::Unknown(khz) => write!(f, "about {khz} kHz is none that the board knows"),
+            Self::Unlocked => f.write_str("the clock's multiplier does not follow it"),
+        }
     }
 }
