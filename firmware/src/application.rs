@@ -1,21 +1,29 @@
 //! What runs when no tick does: frames, orders, replies, logs.
 
 use crate::board::{self, Counter, Link};
-use crate::control::{Order, Receiving, Record, Sending};
+use crate::control::{Measurement, Order, Posting, Receiving, Record, Sending};
 use crate::no_init::{self, stack_bytes};
 use crate::profile::{Profile, stages};
-use surefoot::balance::{Mode, RobotState};
+use surefoot::balance::Mode;
+use surefoot_firmware::freshness::Freshness;
+use surefoot_firmware::orders::Orders;
 use surefoot_link::{
-    Acknowledged, FRAME, FaultLog, FromTarget, Identity, Injection, LEGS, LoggedFault, Pacing,
-    Receiver, Rejected, Sender, SetPoint, Settings, Status, ToTarget, Torques,
+    Acknowledged, BAUD, Clock, FRAME, FaultLog, FromTarget, Identity, Injection, LoggedFault,
+    Pacing, Receiver, Rejected, Sender, Sensors, SetPoint, Settings, Status, ToTarget, Torques,
+    shortest_period_us,
 };
 
 /// Everything that idle owns.
 pub struct Application {
     link: Link,
     counter: Counter,
+    clock: Clock,
     orders: Sending<Order>,
-    measurements: Sending<RobotState<f32, LEGS>>,
+    on_their_way: Orders,
+    measurements: Posting,
+    /// Of the measurements of this session.
+    freshness: Freshness,
+    session: Option<u32>,
     records: Receiving<Record>,
     receiver: Receiver<ToTarget>,
     sender: Sender,
@@ -23,44 +31,52 @@ pub struct Application {
     profile: Profile,
     log: FaultLog,
     /// As of the last record.
-    mode: Mode,
-    /// Armed, and no tick since.
-    is_arming: bool,
     overruns: u32,
     cut_torques: u32,
     records_dropped: u32,
-    measurements_dropped: u32,
+    measurements_replaced: u32,
+    measurements_stale: u32,
 }
 
 impl Application {
-    /// Reads the log that has survived the reset.
+    /// Reads the log that has survived the reset, and notes what led to that.
     pub fn new(
         link: Link,
         counter: Counter,
+        clock: Clock,
         orders: Sending<Order>,
-        measurements: Sending<RobotState<f32, LEGS>>,
+        measurements: Posting,
         records: Receiving<Record>,
     ) -> Self {
+        let session = no_init::fingerprint();
         let mut log = no_init::read();
         log.resets = log.resets.saturating_add(1);
+        if let Some(crash) = no_init::read_crash() {
+            log.crashes = log.crashes.saturating_add(1);
+            log.crash = Some(crash);
+        }
         no_init::write(&log);
+        no_init::forget_crash();
         Self {
             link,
             counter,
+            clock,
             orders,
+            on_their_way: Orders::new(),
             measurements,
+            freshness: Freshness::new(0, 1),
+            session: None,
             records,
             receiver: Receiver::new(),
-            sender: Sender::new(),
+            sender: Sender::new(session),
             pacing: Pacing::LockStep,
             profile: Profile::new(),
             log,
-            mode: Mode::Standby,
-            is_arming: false,
             overruns: 0,
             cut_torques: 0,
             records_dropped: 0,
-            measurements_dropped: 0,
+            measurements_replaced: 0,
+            measurements_stale: 0,
         }
     }
 
@@ -71,6 +87,9 @@ impl Application {
             self.log.resets,
             !self.log.stops.is_empty()
         );
+        if let Clock::Internal(reason) = self.clock {
+            defmt::warn!("without a crystal: {}", defmt::Display2Format(&reason));
+        }
         // The mode of the next reset is the one it will find here.
         let identity = self.identity();
         self.note_mode(Mode::Standby);
@@ -84,6 +103,8 @@ impl Application {
                 }
             }
             self.take_records(true);
+            let Self { link, records, .. } = self;
+            board::sleep_unless(|| link.has_bytes() || records.ready());
         }
     }
 
@@ -93,6 +114,7 @@ impl Application {
             per_second: Counter::PER_SECOND,
             resets: self.log.resets,
             mode_at_reset: self.log.mode_at_reset,
+            clock: self.clock,
         }
     }
 
@@ -107,10 +129,8 @@ impl Application {
                 }
                 return;
             }
-            Ok(ToTarget::Sensors(sensors)) => {
-                if self.measurements.enqueue(sensors.state()).is_err() {
-                    self.measurements_dropped = self.measurements_dropped.saturating_add(1);
-                }
+            Ok(ToTarget::Sensors { taken_us, sensors }) => {
+                self.post(taken_us, &sensors);
                 if self.pacing == Pacing::LockStep {
                     board::tick_now(self.counter);
                     self.take_records(true);
@@ -121,21 +141,10 @@ impl Application {
             Ok(ToTarget::Status) => FromTarget::Status(self.status()),
             Ok(ToTarget::Configure(settings)) => FromTarget::Acknowledged(self.configure(settings)),
             Ok(ToTarget::SetPoint(pose)) => FromTarget::Acknowledged(self.set_point(pose)),
-            Ok(ToTarget::Arm) => {
-                // Before the order, which must wait for a measurement.
-                let was_arming = core::mem::replace(&mut self.is_arming, true);
-                let answer = self.order(Order::Arm);
-                if answer != Acknowledged::Done {
-                    self.is_arming = was_arming;
-                }
-                FromTarget::Acknowledged(answer)
-            }
-            Ok(ToTarget::Disarm) => {
-                self.is_arming = false;
-                FromTarget::Acknowledged(self.order(Order::Disarm))
-            }
+            Ok(ToTarget::Arm) => FromTarget::Acknowledged(self.order(Order::Arm)),
+            Ok(ToTarget::Disarm) => FromTarget::Acknowledged(self.order(Order::Disarm)),
             Ok(ToTarget::Profile(sensors)) => {
-                if self.mode == Mode::Standby {
+                if self.on_their_way.is_standby() {
                     FromTarget::Stages(stages(&self.profile, self.counter, &sensors.state()))
                 } else {
                     FromTarget::Acknowledged(Acknowledged::Busy)
@@ -150,34 +159,68 @@ impl Application {
         if !settings.is_valid() {
             return Acknowledged::Invalid;
         }
-        if self.mode != Mode::Standby || self.is_arming {
+        if !self.on_their_way.is_standby() {
             return Acknowledged::Busy;
         }
-        if self.pacing == Pacing::FreeRunning && settings.pacing == Pacing::LockStep {
+        let period_us = settings.period_us();
+        if settings.pacing == Pacing::FreeRunning {
+            let shortest_us = shortest_period_us(BAUD);
+            if period_us < shortest_us {
+                return Acknowledged::TooFast(shortest_us);
+            }
+            if period_us > board::LONGEST_US {
+                return Acknowledged::TooSlow(board::LONGEST_US);
+            }
+        } else if self.pacing == Pacing::FreeRunning {
             // The watchdog runs, and will not wait for a host.
             return Acknowledged::Unsupported;
         }
-        self.profile.configure(&settings);
-        self.pacing = settings.pacing;
-        self.order(Order::Configure(settings))
+        let answer = self.order(Order::Configure(settings));
+        if answer == Acknowledged::Done {
+            self.profile.configure(&settings);
+            self.pacing = settings.pacing;
+            self.freshness = Freshness::new(period_us, drift(self.clock));
+        }
+        answer
     }
 
     fn set_point(&mut self, pose: SetPoint) -> Acknowledged {
         if !pose.is_valid() {
             return Acknowledged::Invalid;
         }
-        self.profile.set_point(&pose);
-        self.order(Order::SetPoint(pose))
+        let answer = self.order(Order::SetPoint(pose));
+        if answer == Acknowledged::Done {
+            self.profile.set_point(&pose);
+        }
+        answer
+    }
+
+    /// A measurement for the next tick, in the place of one that no tick has taken yet.
+    fn post(&mut self, taken_us: u32, sensors: &Sensors) {
+        let arrived_us = board::now_us();
+        // Another sender has another clock.
+        if self.session != self.receiver.session() {
+            self.session = self.receiver.session();
+            self.freshness.forget();
+        }
+        if self.pacing == Pacing::FreeRunning
+            && self.freshness.accept(taken_us, arrived_us).is_err()
+        {
+            self.measurements_stale = self.measurements_stale.saturating_add(1);
+        } else if self.measurements.post(Measurement { arrived_us, state: sensors.state() }) {
+            self.measurements_replaced = self.measurements_replaced.saturating_add(1);
+        }
     }
 
     /// For the next tick. That is made at once to disarm, and in standby, so that orders do not wait
     /// for a measurement, or for each other.
     fn order(&mut self, order: Order) -> Acknowledged {
-        let is_urgent = matches!(order, Order::Disarm);
+        let (is_arm, is_disarm) = (matches!(order, Order::Arm), matches!(order, Order::Disarm));
         if self.orders.enqueue(order).is_err() {
             return Acknowledged::Busy;
         }
-        if is_urgent || self.mode == Mode::Standby && !self.is_arming {
+        self.on_their_way.note_sent(is_arm);
+        if is_disarm || self.on_their_way.is_standby() {
             board::tick_now(self.counter);
             self.take_records(false);
         }
@@ -193,6 +236,7 @@ impl Application {
                 no_init::forget();
                 board::restart()
             }
+            Injection::Crash(crash) => crate::crash::crash(crash),
             Injection::Exit => board::exit(),
         }
     }
@@ -205,16 +249,16 @@ impl Application {
     /// Notes, and as a rule answers, what ticks have left.
     fn take_records(&mut self, is_answered: bool) {
         while let Some(record) = self.records.dequeue() {
-            if record.mode != self.mode {
+            let before = self.on_their_way.mode();
+            if record.mode != before {
                 self.note_mode(record.mode);
-                let was_stopping = matches!(self.mode, Mode::Stopping { .. });
+                let was_stopping = matches!(before, Mode::Stopping { .. });
                 if let Some(reason) = record.reason.filter(|_| !was_stopping) {
                     let (reset, tick) = (self.log.resets, record.tick);
                     self.note_stop(LoggedFault { reset, tick, reason });
                 }
-                self.mode = record.mode;
             }
-            self.is_arming = false;
+            self.on_their_way.note_tick(record.orders, record.mode);
             self.overruns = record.overruns;
             self.cut_torques = record.cut_torques;
             self.records_dropped = record.dropped;
@@ -256,10 +300,12 @@ impl Application {
 
     fn status(&self) -> Status {
         Status {
-            mode: self.mode,
+            mode: self.on_their_way.mode(),
             received: self.receiver.tally(),
             telemetry_dropped: self.records_dropped,
-            measurements_dropped: self.measurements_dropped,
+            measurements_replaced: self.measurements_replaced,
+            measurements_stale: self.measurements_stale,
+            line: board::line_errors(),
             overruns: self.overruns,
             cut_torques: self.cut_torques,
             stack_bytes: stack_bytes(),
@@ -272,6 +318,15 @@ impl Application {
         if let Some(bytes) = self.sender.encode(message, &mut wire) {
             self.link.send(bytes);
         }
+    }
+}
+
+/// The share by which this clock and the host's may differ is one in this: two crystals of 100 ppm with
+/// room, or the internal oscillator's −8 to +4.5 %.
+fn drift(clock: Clock) -> u32 {
+    match clock {
+        Clock::Internal(_) => 8,
+        Clock::Crystal(_) | Clock::Emulated => 1024,
     }
 }
 
