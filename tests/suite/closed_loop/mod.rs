@@ -6,6 +6,7 @@ mod experiment_1;
 mod experiment_2;
 mod hardware;
 mod limits;
+mod link;
 mod parsimony;
 mod plants;
 mod sensing;
