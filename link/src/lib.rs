@@ -19,12 +19,13 @@ mod line;
 mod message;
 mod receiver;
 mod sequence;
+mod status;
 
 pub use frame::{FRAME, Sender, VERSION, checksum, most_wire_bytes};
 pub use line::{BAUD, shortest_period_us, wire_us};
 pub use message::{
-    Acknowledged, Clock, Counter, Crash, FaultLog, FromTarget, Identity, Injection, LEGS,
-    LineErrors, LoggedFault, NoCrystal, Pacing, Sensors, SetPoint, Settings, Stages, Status,
-    ToTarget, Torques,
+    Acknowledged, Counter, FromTarget, Identity, Injection, LEGS, Pacing, Sensors, SetPoint,
+    Settings, Stages, ToTarget, Torques,
 };
 pub use receiver::{Receiver, Rejected, Tally};
+pub use status::{Clock, Crash, FaultLog, LineErrors, LoggedFault, NoCrystal, Status};
