@@ -2,15 +2,15 @@
 
 use crate::board::{self, Counter, Link};
 use crate::control::{Measurement, Order, Posting, Receiving, Record, Sending};
+use crate::log::Log;
 use crate::no_init::{self, stack_bytes};
 use crate::profile::{Profile, stages};
 use surefoot::balance::Mode;
 use surefoot_firmware::freshness::Freshness;
 use surefoot_firmware::orders::Orders;
 use surefoot_link::{
-    Acknowledged, BAUD, Clock, FRAME, FaultLog, FromTarget, Identity, Injection, LoggedFault,
-    Pacing, Receiver, Rejected, Sender, Sensors, SetPoint, Settings, Status, ToTarget, Torques,
-    shortest_period_us,
+    Acknowledged, BAUD, Clock, FRAME, FromTarget, Identity, Injection, Pacing, Receiver, Rejected,
+    Sender, Sensors, SetPoint, Settings, Status, ToTarget, Torques, shortest_period_us,
 };
 
 /// Everything that idle owns.
@@ -29,7 +29,7 @@ pub struct Application {
     sender: Sender,
     pacing: Pacing,
     profile: Profile,
-    log: FaultLog,
+    log: Log,
     /// As of the last record.
     overruns: u32,
     cut_torques: u32,
@@ -48,15 +48,8 @@ impl Application {
         measurements: Posting,
         records: Receiving<Record>,
     ) -> Self {
+        // Before the log is written.
         let session = no_init::fingerprint();
-        let mut log = no_init::read();
-        log.resets = log.resets.saturating_add(1);
-        if let Some(crash) = no_init::read_crash() {
-            log.crashes = log.crashes.saturating_add(1);
-            log.crash = Some(crash);
-        }
-        no_init::write(&log);
-        no_init::forget_crash();
         Self {
             link,
             counter,
@@ -71,7 +64,7 @@ impl Application {
             sender: Sender::new(session),
             pacing: Pacing::LockStep,
             profile: Profile::new(),
-            log,
+            log: Log::open(),
             overruns: 0,
             cut_torques: 0,
             records_dropped: 0,
@@ -84,15 +77,15 @@ impl Application {
     pub fn run(&mut self) -> ! {
         defmt::info!(
             "reset {=u32}; a stop in the log: {=bool}",
-            self.log.resets,
-            !self.log.stops.is_empty()
+            self.log.contents().resets,
+            !self.log.contents().stops.is_empty()
         );
         if let Clock::Internal(reason) = self.clock {
             defmt::warn!("without a crystal: {}", defmt::Display2Format(&reason));
         }
         // The mode of the next reset is the one it will find here.
         let identity = self.identity();
-        self.note_mode(Mode::Standby);
+        self.log.note_mode(Mode::Standby);
         self.send(&FromTarget::Identity(identity));
         loop {
             let mut bytes = [0; 64];
@@ -112,8 +105,8 @@ impl Application {
         Identity {
             counter: Counter::UNIT,
             per_second: Counter::PER_SECOND,
-            resets: self.log.resets,
-            mode_at_reset: self.log.mode_at_reset,
+            resets: self.log.contents().resets,
+            mode_at_reset: self.log.contents().mode_at_reset,
             clock: self.clock,
         }
     }
@@ -251,11 +244,10 @@ impl Application {
         while let Some(record) = self.records.dequeue() {
             let before = self.on_their_way.mode();
             if record.mode != before {
-                self.note_mode(record.mode);
+                self.log.note_mode(record.mode);
                 let was_stopping = matches!(before, Mode::Stopping { .. });
                 if let Some(reason) = record.reason.filter(|_| !was_stopping) {
-                    let (reset, tick) = (self.log.resets, record.tick);
-                    self.note_stop(LoggedFault { reset, tick, reason });
+                    self.log.note_stop(record.tick, reason);
                 }
             }
             self.on_their_way.note_tick(record.orders, record.mode);
@@ -276,28 +268,6 @@ impl Application {
         }
     }
 
-    /// The log is for what the robot was doing; the ramp's ticks are one mode.
-    fn note_mode(&mut self, mode: Mode) {
-        let mode = match mode {
-            Mode::Stopping { .. } => Mode::Stopping { left: 0 },
-            other => other,
-        };
-        if self.log.mode_at_reset != Some(mode) {
-            self.log.mode_at_reset = Some(mode);
-            no_init::write(&self.log);
-        }
-    }
-
-    fn note_stop(&mut self, stop: LoggedFault) {
-        if self.log.stops.is_full() {
-            self.log.stops.remove(0);
-        }
-        // There is room now.
-        let _ = self.log.stops.push(stop);
-        no_init::write(&self.log);
-        defmt::error!("stopped at tick {=u32}: {}", stop.tick, defmt::Display2Format(&stop.reason));
-    }
-
     fn status(&self) -> Status {
         Status {
             mode: self.on_their_way.mode(),
@@ -309,7 +279,7 @@ impl Application {
             overruns: self.overruns,
             cut_torques: self.cut_torques,
             stack_bytes: stack_bytes(),
-            log: self.log.clone(),
+            log: self.log.contents().clone(),
         }
     }
 

@@ -37,6 +37,8 @@ mod control;
 #[cfg(target_os = "none")]
 mod crash;
 #[cfg(target_os = "none")]
+mod log;
+#[cfg(target_os = "none")]
 mod logger;
 #[cfg(target_os = "none")]
 mod no_init;
