@@ -1,66 +1,75 @@
 //! What runs when no tick does: frames, orders, replies, logs.
 
 use crate::board::{self, Counter, Link};
-use crate::control::{LIMITS, Order, Receiving, Record, Sending};
+use crate::control::{LIMITS, Measurement, Order, Posting, Receiving, Record, Sending};
+use crate::log::Log;
 use crate::no_init::{self, stack_bytes};
 use crate::profile::{Profile, stages};
-use surefoot::balance::{Mode, RobotState};
+use surefoot::balance::Mode;
+use surefoot_firmware::freshness::Freshness;
+use surefoot_firmware::orders::Orders;
 use surefoot_link::{
-    Acknowledged, FRAME, FaultLog, FromTarget, Identity, Injection, LEGS, LoggedFault, Pacing,
-    Receiver, Rejected, Sender, SetPoint, Settings, Status, ToTarget, Torques,
+    Acknowledged, BAUD, Clock, FRAME, FromTarget, Identity, Injection, Pacing, Receiver, Rejected,
+    Sender, Sensors, SetPoint, Settings, Status, ToTarget, Torques, shortest_period_us,
 };
 
 /// Everything that idle owns.
 pub struct Application {
     link: Link,
     counter: Counter,
+    clock: Clock,
     orders: Sending<Order>,
-    measurements: Sending<RobotState<f32, LEGS>>,
+    on_their_way: Orders,
+    measurements: Posting,
+    /// Of the measurements of this session.
+    freshness: Freshness,
+    session: Option<u32>,
     records: Receiving<Record>,
     receiver: Receiver<ToTarget>,
     sender: Sender,
     pacing: Pacing,
     profile: Profile,
-    log: FaultLog,
+    log: Log,
     /// As of the last record.
-    mode: Mode,
-    /// Armed, and no tick since.
-    is_arming: bool,
     overruns: u32,
     cut_torques: u32,
     records_dropped: u32,
-    measurements_dropped: u32,
+    measurements_replaced: u32,
+    measurements_stale: u32,
 }
 
 impl Application {
-    /// Reads the log that has survived the reset.
+    /// Reads the log that has survived the reset, and notes what led to that.
     pub fn new(
         link: Link,
         counter: Counter,
+        clock: Clock,
         orders: Sending<Order>,
-        measurements: Sending<RobotState<f32, LEGS>>,
+        measurements: Posting,
         records: Receiving<Record>,
     ) -> Self {
-        let mut log = no_init::read();
-        log.resets = log.resets.saturating_add(1);
-        no_init::write(&log);
+        // Before the log is written.
+        let session = no_init::fingerprint();
         Self {
             link,
             counter,
+            clock,
             orders,
+            on_their_way: Orders::new(),
             measurements,
+            freshness: Freshness::new(0, 1),
+            session: None,
             records,
             receiver: Receiver::new(),
-            sender: Sender::new(),
+            sender: Sender::new(session),
             pacing: Pacing::LockStep,
             profile: Profile::new(),
-            log,
-            mode: Mode::Standby,
-            is_arming: false,
+            log: Log::open(),
             overruns: 0,
             cut_torques: 0,
             records_dropped: 0,
-            measurements_dropped: 0,
+            measurements_replaced: 0,
+            measurements_stale: 0,
         }
     }
 
@@ -68,12 +77,15 @@ impl Application {
     pub fn run(&mut self) -> ! {
         defmt::info!(
             "reset {=u32}; a stop in the log: {=bool}",
-            self.log.resets,
-            !self.log.stops.is_empty()
+            self.log.contents().resets,
+            !self.log.contents().stops.is_empty()
         );
+        if let Clock::Internal(reason) = self.clock {
+            defmt::warn!("without a crystal: {}", defmt::Display2Format(&reason));
+        }
         // The mode of the next reset is the one it will find here.
         let identity = self.identity();
-        self.note_mode(Mode::Standby);
+        self.log.note_mode(Mode::Standby);
         self.send(&FromTarget::Identity(identity));
         loop {
             let mut bytes = [0; 64];
@@ -84,6 +96,8 @@ impl Application {
                 }
             }
             self.take_records(true);
+            let Self { link, records, .. } = self;
+            board::sleep_unless(|| link.has_bytes() || records.ready());
         }
     }
 
@@ -91,8 +105,9 @@ impl Application {
         Identity {
             counter: Counter::UNIT,
             per_second: Counter::PER_SECOND,
-            resets: self.log.resets,
-            mode_at_reset: self.log.mode_at_reset,
+            resets: self.log.contents().resets,
+            mode_at_reset: self.log.contents().mode_at_reset,
+            clock: self.clock,
         }
     }
 
@@ -107,10 +122,8 @@ impl Application {
                 }
                 return;
             }
-            Ok(ToTarget::Sensors(sensors)) => {
-                if self.measurements.enqueue(sensors.state()).is_err() {
-                    self.measurements_dropped = self.measurements_dropped.saturating_add(1);
-                }
+            Ok(ToTarget::Sensors { taken_us, sensors }) => {
+                self.post(taken_us, &sensors);
                 if self.pacing == Pacing::LockStep {
                     board::tick_now(self.counter);
                     self.take_records(true);
@@ -121,21 +134,10 @@ impl Application {
             Ok(ToTarget::Status) => FromTarget::Status(self.status()),
             Ok(ToTarget::Configure(settings)) => FromTarget::Acknowledged(self.configure(settings)),
             Ok(ToTarget::SetPoint(pose)) => FromTarget::Acknowledged(self.set_point(pose)),
-            Ok(ToTarget::Arm) => {
-                // Before the order, which must wait for a measurement.
-                let was_arming = core::mem::replace(&mut self.is_arming, true);
-                let answer = self.order(Order::Arm);
-                if answer != Acknowledged::Done {
-                    self.is_arming = was_arming;
-                }
-                FromTarget::Acknowledged(answer)
-            }
-            Ok(ToTarget::Disarm) => {
-                self.is_arming = false;
-                FromTarget::Acknowledged(self.order(Order::Disarm))
-            }
+            Ok(ToTarget::Arm) => FromTarget::Acknowledged(self.order(Order::Arm)),
+            Ok(ToTarget::Disarm) => FromTarget::Acknowledged(self.order(Order::Disarm)),
             Ok(ToTarget::Profile(sensors)) => {
-                if self.mode == Mode::Standby {
+                if self.on_their_way.is_standby() {
                     FromTarget::Stages(stages(&self.profile, self.counter, &sensors.state()))
                 } else {
                     FromTarget::Acknowledged(Acknowledged::Busy)
@@ -155,34 +157,68 @@ impl Application {
             defmt::warn!("limits are refused: {}", defmt::Display2Format(&error));
             return Acknowledged::Limit(error);
         }
-        if self.mode != Mode::Standby || self.is_arming {
+        if !self.on_their_way.is_standby() {
             return Acknowledged::Busy;
         }
-        if self.pacing == Pacing::FreeRunning && settings.pacing == Pacing::LockStep {
+        let period_us = settings.period_us();
+        if settings.pacing == Pacing::FreeRunning {
+            let shortest_us = shortest_period_us(BAUD);
+            if period_us < shortest_us {
+                return Acknowledged::TooFast(shortest_us);
+            }
+            if period_us > board::LONGEST_US {
+                return Acknowledged::TooSlow(board::LONGEST_US);
+            }
+        } else if self.pacing == Pacing::FreeRunning {
             // The watchdog runs, and will not wait for a host.
             return Acknowledged::Unsupported;
         }
-        self.profile.configure(&settings);
-        self.pacing = settings.pacing;
-        self.order(Order::Configure(settings))
+        let answer = self.order(Order::Configure(settings));
+        if answer == Acknowledged::Done {
+            self.profile.configure(&settings);
+            self.pacing = settings.pacing;
+            self.freshness = Freshness::new(period_us, drift(self.clock));
+        }
+        answer
     }
 
     fn set_point(&mut self, pose: SetPoint) -> Acknowledged {
         if !pose.is_valid() {
             return Acknowledged::Invalid;
         }
-        self.profile.set_point(&pose);
-        self.order(Order::SetPoint(pose))
+        let answer = self.order(Order::SetPoint(pose));
+        if answer == Acknowledged::Done {
+            self.profile.set_point(&pose);
+        }
+        answer
+    }
+
+    /// A measurement for the next tick, in the place of one that no tick has taken yet.
+    fn post(&mut self, taken_us: u32, sensors: &Sensors) {
+        let arrived_us = board::now_us();
+        // Another sender has another clock.
+        if self.session != self.receiver.session() {
+            self.session = self.receiver.session();
+            self.freshness.forget();
+        }
+        if self.pacing == Pacing::FreeRunning
+            && self.freshness.accept(taken_us, arrived_us).is_err()
+        {
+            self.measurements_stale = self.measurements_stale.saturating_add(1);
+        } else if self.measurements.post(Measurement { arrived_us, state: sensors.state() }) {
+            self.measurements_replaced = self.measurements_replaced.saturating_add(1);
+        }
     }
 
     /// For the next tick. That is made at once to disarm, and in standby, so that orders do not wait
     /// for a measurement, or for each other.
     fn order(&mut self, order: Order) -> Acknowledged {
-        let is_urgent = matches!(order, Order::Disarm);
+        let (is_arm, is_disarm) = (matches!(order, Order::Arm), matches!(order, Order::Disarm));
         if self.orders.enqueue(order).is_err() {
             return Acknowledged::Busy;
         }
-        if is_urgent || self.mode == Mode::Standby && !self.is_arming {
+        self.on_their_way.note_sent(is_arm);
+        if is_disarm || self.on_their_way.is_standby() {
             board::tick_now(self.counter);
             self.take_records(false);
         }
@@ -198,6 +234,7 @@ impl Application {
                 no_init::forget();
                 board::restart()
             }
+            Injection::Crash(crash) => crate::crash::crash(crash),
             Injection::Exit => board::exit(),
         }
     }
@@ -210,16 +247,15 @@ impl Application {
     /// Notes, and as a rule answers, what ticks have left.
     fn take_records(&mut self, is_answered: bool) {
         while let Some(record) = self.records.dequeue() {
-            if record.mode != self.mode {
-                self.note_mode(record.mode);
-                let was_stopping = matches!(self.mode, Mode::Stopping { .. });
+            let before = self.on_their_way.mode();
+            if record.mode != before {
+                self.log.note_mode(record.mode);
+                let was_stopping = matches!(before, Mode::Stopping { .. });
                 if let Some(reason) = record.reason.filter(|_| !was_stopping) {
-                    let (reset, tick) = (self.log.resets, record.tick);
-                    self.note_stop(LoggedFault { reset, tick, reason });
+                    self.log.note_stop(record.tick, reason);
                 }
-                self.mode = record.mode;
             }
-            self.is_arming = false;
+            self.on_their_way.note_tick(record.orders, record.mode);
             self.overruns = record.overruns;
             self.cut_torques = record.cut_torques;
             self.records_dropped = record.dropped;
@@ -237,38 +273,18 @@ impl Application {
         }
     }
 
-    /// The log is for what the robot was doing; the ramp's ticks are one mode.
-    fn note_mode(&mut self, mode: Mode) {
-        let mode = match mode {
-            Mode::Stopping { .. } => Mode::Stopping { left: 0 },
-            other => other,
-        };
-        if self.log.mode_at_reset != Some(mode) {
-            self.log.mode_at_reset = Some(mode);
-            no_init::write(&self.log);
-        }
-    }
-
-    fn note_stop(&mut self, stop: LoggedFault) {
-        if self.log.stops.is_full() {
-            self.log.stops.remove(0);
-        }
-        // There is room now.
-        let _ = self.log.stops.push(stop);
-        no_init::write(&self.log);
-        defmt::error!("stopped at tick {=u32}: {}", stop.tick, defmt::Display2Format(&stop.reason));
-    }
-
     fn status(&self) -> Status {
         Status {
-            mode: self.mode,
+            mode: self.on_their_way.mode(),
             received: self.receiver.tally(),
             telemetry_dropped: self.records_dropped,
-            measurements_dropped: self.measurements_dropped,
+            measurements_replaced: self.measurements_replaced,
+            measurements_stale: self.measurements_stale,
+            line: board::line_errors(),
             overruns: self.overruns,
             cut_torques: self.cut_torques,
             stack_bytes: stack_bytes(),
-            log: self.log.clone(),
+            log: self.log.contents().clone(),
         }
     }
 
@@ -277,6 +293,15 @@ impl Application {
         if let Some(bytes) = self.sender.encode(message, &mut wire) {
             self.link.send(bytes);
         }
+    }
+}
+
+/// The share by which this clock and the host's may differ is one in this: two crystals of 100 ppm with
+/// room, or the internal oscillator's −8 to +4.5 %.
+fn drift(clock: Clock) -> u32 {
+    match clock {
+        Clock::Internal(_) => 8,
+        Clock::Crystal(_) | Clock::Emulated => 1024,
     }
 }
 

@@ -1,6 +1,6 @@
 //! The tick: what runs at the highest priority.
 
-use crate::board::{Counter, Motors, TickTimer, Watchdog};
+use crate::board::{Counter, Motors, TickTimer, Watchdog, now_us};
 use heapless::spsc::{Consumer, Producer, Queue};
 use nalgebra::Vector3;
 use surefoot::balance::{
@@ -9,6 +9,7 @@ use surefoot::balance::{
 };
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, SymmetricMatrix3};
+use surefoot_firmware::mailbox::{Mailbox, Reader, Writer};
 use surefoot_link::{LEGS, Pacing, SetPoint, Settings};
 
 /// The robot, in flash.
@@ -51,6 +52,8 @@ pub struct Record {
     pub cut_torques: u32,
     /// Ticks so far.
     pub tick: u32,
+    /// Orders taken so far.
+    pub orders: u32,
     /// Ticks so far that took longer than their period.
     pub overruns: u32,
     /// Records so far that found the queue full.
@@ -70,6 +73,21 @@ pub type Sending<T> = Producer<'static, T, PLACES>;
 /// Its near end.
 pub type Receiving<T> = Consumer<'static, T, PLACES>;
 
+/// A measurement on its way to the tick.
+pub struct Measurement {
+    /// When it arrived, by [`now_us`].
+    pub arrived_us: u32,
+    /// What was measured.
+    pub state: RobotState<f32, LEGS>,
+}
+
+/// Holds the newest measurement.
+pub type Measurements = Mailbox<Measurement>;
+/// Where idle posts it.
+pub type Posting = Writer<'static, Measurement>;
+/// Where the tick finds it.
+pub type Finding = Reader<'static, Measurement>;
+
 /// Everything that the tick owns.
 pub struct Control {
     counter: Counter,
@@ -77,7 +95,9 @@ pub struct Control {
     motors: Motors,
     watchdog: Watchdog,
     orders: Receiving<Order>,
-    measurements: Receiving<RobotState<f32, LEGS>>,
+    measurements: Finding,
+    /// Longest time, µs, for which a measurement may have waited.
+    patience_us: u32,
     records: Sending<Record>,
     controller: Controller<'static, f32, LEGS>,
     reference: Reference<f32>,
@@ -85,10 +105,12 @@ pub struct Control {
     /// Cost that a tick may have.
     deadline: u32,
     overran: bool,
-    next_pacing: Option<(Pacing, f32)>,
+    /// With the period, in s and µs.
+    next_pacing: Option<(Pacing, f32, u32)>,
     #[cfg(feature = "emulation")]
     delay: u32,
     tick: u32,
+    taken: u32,
     overruns: u32,
     dropped: u32,
 }
@@ -102,7 +124,7 @@ impl Control {
         motors: Motors,
         watchdog: Watchdog,
         orders: Receiving<Order>,
-        measurements: Receiving<RobotState<f32, LEGS>>,
+        measurements: Finding,
         records: Sending<Record>,
     ) -> Self {
         Self {
@@ -112,6 +134,7 @@ impl Control {
             watchdog,
             orders,
             measurements,
+            patience_us: u32::MAX,
             records,
             controller: Controller::new(&ROBOT),
             reference: Reference::at_rest(Vector3::new(0.0, 0.0, 1.1), Quaternion::identity()),
@@ -122,6 +145,7 @@ impl Control {
             #[cfg(feature = "emulation")]
             delay: 0,
             tick: 0,
+            taken: 0,
             overruns: 0,
             dropped: 0,
         }
@@ -138,13 +162,14 @@ impl Control {
             let Some(order) = self.orders.dequeue() else { break };
             self.take(order);
         }
-        let measured = self.measurements.dequeue();
-        let supervised = self.supervisor.step(
-            &self.controller,
-            measured.as_ref(),
-            &self.reference,
-            self.overran,
-        );
+        let mut is_measured = false;
+        let supervised = self.measurements.read(|newest| {
+            let waited = |newest: &&Measurement| now_us().wrapping_sub(newest.arrived_us);
+            let measured = newest.filter(|newest| waited(newest) <= self.patience_us);
+            is_measured = measured.is_some();
+            let state = measured.map(|measured| &measured.state);
+            self.supervisor.step(&self.controller, state, &self.reference, self.overran)
+        });
         let mode = self.supervisor.mode();
         self.motors.set(&supervised.joint_torques, mode != Mode::Standby && mode != Mode::Stopped);
         self.watchdog.feed();
@@ -156,13 +181,14 @@ impl Control {
         self.overruns = self.overruns.saturating_add(u32::from(self.overran));
         self.tick = self.tick.wrapping_add(1);
         let record = Record {
-            is_measured: measured.is_some(),
+            is_measured,
             joint_torques: supervised.joint_torques,
             command: supervised.command,
             mode,
             reason: self.supervisor.reason(),
             cut_torques: self.supervisor.cut_torques(),
             tick: self.tick,
+            orders: self.taken,
             overruns: self.overruns,
             dropped: self.dropped,
             cost,
@@ -175,6 +201,7 @@ impl Control {
     }
 
     fn take(&mut self, order: Order) {
+        self.taken = self.taken.wrapping_add(1);
         match order {
             Order::Configure(settings) => {
                 if self.supervisor.mode() == Mode::Standby {
@@ -200,16 +227,21 @@ impl Control {
         }
         configure(&mut self.controller, settings);
         self.deadline = Counter::cost_of(settings.period);
-        self.next_pacing = Some((settings.pacing, settings.period));
+        self.next_pacing = Some((settings.pacing, settings.period, settings.period_us()));
     }
 
     /// Between ticks, as it may change the clock that costs are read from.
     fn change_pacing(&mut self) {
         match self.next_pacing.take() {
             None => {}
-            Some((Pacing::LockStep, _)) => self.timer.halt(),
-            Some((Pacing::FreeRunning, period)) => {
-                self.watchdog.start();
+            Some((Pacing::LockStep, ..)) => {
+                self.patience_us = u32::MAX;
+                self.timer.halt();
+            }
+            Some((Pacing::FreeRunning, period, period_us)) => {
+                // It comes between two ticks, of which the later may be late.
+                self.patience_us = 2 * period_us;
+                self.watchdog.start(period_us);
                 self.timer.run(period);
             }
         }

@@ -1,53 +1,92 @@
-//! Memory that is not cleared at reset: the fault log, and the painted stack.
+//! Memory that is not cleared at reset: the fault log, the last crash, and the painted stack.
 
 use core::mem::MaybeUninit;
 use core::ptr::{addr_of, addr_of_mut};
-use surefoot_link::FaultLog;
+use surefoot_firmware::fault_log::{self, CONTENTS, Memory, SIZE};
+use surefoot_link::{Crash, FaultLog, checksum};
 
-/// Bytes kept for the log: its longest form, and a checksum.
-const SIZE: usize = 256;
+/// Bytes of a crash: its longest form, and a checksum.
+const CRASH: usize = 20;
 
-const CHECKSUM: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
-
-/// Startup code leaves this section alone.
+/// Memory that startup code leaves alone.
 #[unsafe(link_section = ".uninit.fault_log")]
-static mut LOG: MaybeUninit<[u8; SIZE]> = MaybeUninit::uninit();
+static mut KEPT: MaybeUninit<[u8; SIZE + CRASH]> = MaybeUninit::uninit();
+
+/// The log's part of it. Idle alone uses that.
+struct Kept;
+
+impl Memory for Kept {
+    fn read(&self, at: usize) -> u8 {
+        read_byte(at)
+    }
+
+    fn write(&mut self, at: usize, byte: u8) {
+        write_byte(at, byte);
+    }
+}
 
 /// The log, if the memory has kept it; an empty one otherwise.
 pub fn read() -> FaultLog {
-    let mut bytes = [0_u8; SIZE];
-    for (i, byte) in bytes.iter_mut().enumerate() {
-        // SAFETY: inside LOG; only idle reads and writes it; volatile, as its contents come from
-        // before this program began. Any byte is a u8.
-        *byte = unsafe { addr_of!(LOG).cast::<u8>().add(i).read_volatile() };
-    }
-    let log = bytes.split_last_chunk::<4>().and_then(|(log, checksum)| {
-        let is_whole = CHECKSUM.checksum(log) == u32::from_le_bytes(*checksum);
-        if is_whole { postcard::from_bytes(log).ok() } else { None }
-    });
-    log.unwrap_or_default()
+    let contents = fault_log::read(&Kept);
+    contents.and_then(|contents| postcard::from_bytes(&contents).ok()).unwrap_or_default()
 }
 
 /// Keeps the log.
 pub fn write(log: &FaultLog) {
-    let mut bytes = [0_u8; SIZE];
-    let Some((body, checksum)) = bytes.split_last_chunk_mut::<4>() else { return };
-    if postcard::to_slice(log, body).is_err() {
-        return;
-    }
-    *checksum = CHECKSUM.checksum(body).to_le_bytes();
-    for (i, byte) in bytes.iter().enumerate() {
-        // SAFETY: as above.
-        unsafe { addr_of_mut!(LOG).cast::<u8>().add(i).write_volatile(*byte) };
+    let mut contents = [0; CONTENTS];
+    // A test makes sure that the longest fits.
+    if postcard::to_slice(log, &mut contents).is_ok() {
+        fault_log::write(&mut Kept, &contents);
     }
 }
 
-/// Loses the log, as memory without power does.
+/// A number that differs from the last reset's: memory without power holds noise, and with it the log
+/// has been written since.
+pub fn fingerprint() -> u32 {
+    fault_log::fingerprint(&Kept)
+}
+
+/// Keeps what the program ends of.
+pub fn write_crash(crash: &Crash) {
+    let mut bytes = [0; CRASH];
+    let Some((body, end)) = bytes.split_last_chunk_mut::<4>() else { return };
+    if postcard::to_slice(crash, body).is_ok() {
+        *end = checksum(body).to_le_bytes();
+        (SIZE..).zip(bytes).for_each(|(at, byte)| write_byte(at, byte));
+    }
+}
+
+/// What the program has ended of before this reset.
+pub fn read_crash() -> Option<Crash> {
+    let bytes: [u8; CRASH] = core::array::from_fn(|i| read_byte(SIZE + i));
+    let (body, end) = bytes.split_last_chunk::<4>()?;
+    if checksum(body).to_le_bytes() == *end { postcard::from_bytes(body).ok() } else { None }
+}
+
+/// It is in the log now.
+pub fn forget_crash() {
+    (SIZE..SIZE + CRASH).for_each(|at| write_byte(at, 0xff));
+}
+
+/// Loses everything, as memory without power does.
 #[cfg(feature = "emulation")]
 pub fn forget() {
-    for i in 0..SIZE {
-        // SAFETY: as above.
-        unsafe { addr_of_mut!(LOG).cast::<u8>().add(i).write_volatile(0xa5) };
+    (0..SIZE + CRASH).for_each(|at| write_byte(at, 0xa5));
+}
+
+fn read_byte(at: usize) -> u8 {
+    if at >= SIZE + CRASH {
+        return 0;
+    }
+    // SAFETY: inside KEPT; volatile, as its contents come from before this program began. Any byte is
+    // a u8.
+    unsafe { addr_of!(KEPT).cast::<u8>().add(at).read_volatile() }
+}
+
+fn write_byte(at: usize, byte: u8) {
+    if at < SIZE + CRASH {
+        // SAFETY: as above. Idle writes the log, and a crash, which nothing outlasts, its own part.
+        unsafe { addr_of_mut!(KEPT).cast::<u8>().add(at).write_volatile(byte) };
     }
 }
 

@@ -1,6 +1,7 @@
 //! Frames: a message with its number, a checksum, and an end.
 
-use serde::{Deserialize, Serialize};
+use crate::sequence::FrameNumber;
+use serde::Serialize;
 
 /// Version of the messages. Both ends must have the same; it goes up when a message changes.
 pub const VERSION: u8 = 2;
@@ -9,29 +10,34 @@ pub const VERSION: u8 = 2;
 pub const FRAME: usize = 512;
 
 /// CRC-32 of ISO 3309 (Ethernet, zlib): finds all errors of up to 3 bits in frames of this length.
-pub(crate) const CHECKSUM: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
+const CHECKSUM: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
+
+/// A frame's checksum, for whatever else needs one.
+#[inline(never)]
+pub fn checksum(bytes: &[u8]) -> u32 {
+    CHECKSUM.checksum(bytes)
+}
 
 /// Bytes of the checksum.
 pub(crate) const CHECKSUM_BYTES: usize = 4;
 
-/// What stands before a message.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Header {
-    pub version: u8,
-    pub sequence: u32,
-}
+/// Most bytes before a message: version, session, and a number of variable length.
+const MOST_HEADER_BYTES: usize = 1 + 4 + 5;
+
+/// What stands before a message. The version is a byte of its own in every version.
+pub(crate) type Header = (u8, [u8; 4], u32);
 
 /// The sending end: numbers frames as it makes them.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Sender {
-    next: u32,
+    next: FrameNumber,
 }
 
 impl Sender {
-    /// A sender that has said nothing. Its first frame has number 0, which tells the receiver to
-    /// forget all numbers before.
-    pub const fn new() -> Self {
-        Self { next: 0 }
+    /// A sender that has said nothing. Its `session` tells it from those before: a number that the
+    /// receiver has not heard lately, such as a random one.
+    pub const fn new(session: u32) -> Self {
+        Self { next: FrameNumber { session, sequence: 0 } }
     }
 
     /// Writes a message as a frame into `wire` and gives the part of it that was written; `None`
@@ -42,16 +48,24 @@ impl Sender {
         wire: &'a mut [u8; FRAME],
     ) -> Option<&'a [u8]> {
         let mut plain = [0; FRAME];
-        let header = Header { version: VERSION, sequence: self.next };
+        let header: Header = (VERSION, self.next.session.to_le_bytes(), self.next.sequence);
         let used = postcard::to_slice(&(header, message), &mut plain).ok()?.len();
-        let checksum = CHECKSUM.checksum(plain.get(..used)?).to_le_bytes();
+        let checksum = checksum(plain.get(..used)?).to_le_bytes();
         plain.get_mut(used..used + CHECKSUM_BYTES)?.copy_from_slice(&checksum);
         let plain = plain.get(..used + CHECKSUM_BYTES)?;
         // The last byte is the end.
         let length = cobs::try_encode(plain, wire.get_mut(..FRAME - 1)?).ok()?;
         *wire.get_mut(length)? = 0;
-        // After 2³² frames it goes on with 1: 0 is for a new beginning.
-        self.next = self.next.checked_add(1).unwrap_or(1);
+        self.next.sequence = self.next.sequence.wrapping_add(1);
         wire.get(..=length)
     }
+}
+
+/// Most bytes that a message takes on the wire, whatever its frame's number; `None` where it does
+/// not fit a frame.
+pub fn most_wire_bytes<M: Serialize>(message: &M) -> Option<usize> {
+    let plain =
+        MOST_HEADER_BYTES + postcard::experimental::serialized_size(message).ok()? + CHECKSUM_BYTES;
+    let wire = cobs::max_encoding_length(plain) + 1;
+    (wire <= FRAME).then_some(wire)
 }

@@ -1,11 +1,12 @@
 //! What host and target say to each other, and how it is framed: the same code on both sides.
 //!
 //! ```text
-//! message ─ postcard ─► version, sequence number, message ─ CRC-32 ─ COBS ─ 0 ─► bytes on the wire
+//! message ─ postcard ─► version, session, sequence number, message ─ CRC-32 ─ COBS ─ 0 ─► bytes on the wire
 //! ```
 //! A zero byte ends a frame and occurs nowhere else, so that a receiver that has lost its place finds
 //! it again at the next frame. A frame that is truncated, corrupted, repeated, out of order, of
-//! another version or too long is rejected, and counted by its kind.
+//! another version or too long is rejected, and counted by its kind. A sender that has begun anew is
+//! known by its session, and believed from its second frame on.
 //!
 //! The link does not know what is at its other end: a plant of this project, another simulator, or a
 //! test bench; a UART, a pipe or a socket.
@@ -14,12 +15,17 @@
 #![forbid(unsafe_code)]
 
 mod frame;
+mod line;
 mod message;
 mod receiver;
+mod sequence;
+mod status;
 
-pub use frame::{FRAME, Sender, VERSION};
+pub use frame::{FRAME, Sender, VERSION, checksum, most_wire_bytes};
+pub use line::{BAUD, shortest_period_us, wire_us};
 pub use message::{
-    Acknowledged, Counter, FaultLog, FromTarget, Identity, Injection, LEGS, LoggedFault, Pacing,
-    Sensors, SetPoint, Settings, Stages, Status, ToTarget, Torques,
+    Acknowledged, Counter, FromTarget, Identity, Injection, LEGS, Pacing, Sensors, SetPoint,
+    Settings, Stages, ToTarget, Torques,
 };
 pub use receiver::{Receiver, Rejected, Tally};
+pub use status::{Clock, Crash, FaultLog, LineErrors, LoggedFault, NoCrystal, Status};

@@ -1,7 +1,6 @@
 //! The messages. Numbers are single precision: what the target computes with, bit for bit.
 
-use crate::Tally;
-use heapless::Vec;
+use crate::status::{Clock, Crash, Status};
 use serde::{Deserialize, Serialize};
 use surefoot::balance::{JointLimits, LimitError, Mode, RobotState, StopReason, Thresholds};
 use surefoot::spatial::{Quaternion, Twist};
@@ -9,7 +8,7 @@ use surefoot::spatial::{Quaternion, Twist};
 /// Legs of the robot on the link.
 pub const LEGS: usize = 2;
 /// Joints of a leg.
-const LEG: usize = 6;
+pub(crate) const LEG: usize = 6;
 
 /// From host to target.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,7 +24,13 @@ pub enum ToTarget {
     /// Zero torques. Acknowledged.
     Disarm,
     /// One measurement. Answered by [`FromTarget::Torques`] when a tick has used it.
-    Sensors(Sensors),
+    Sensors {
+        /// When it was taken, by the sender's clock, µs. A free-running target refuses one that has
+        /// been on its way for longer than a period; in lock step nobody reads it.
+        taken_us: u32,
+        /// What was measured.
+        sensors: Sensors,
+    },
     /// How are you? Answered by [`FromTarget::Status`].
     Status,
     /// What does each stage of a tick cost, for this measurement? Answered by
@@ -65,6 +70,10 @@ pub enum Acknowledged {
     Limit(LimitError),
     /// This build does not do that.
     Unsupported,
+    /// The period is shorter than the line needs for a measurement: this much, µs.
+    TooFast(u32),
+    /// The period is longer than the target's timer counts: this much, µs.
+    TooSlow(u32),
 }
 
 /// What a cost is counted in.
@@ -87,6 +96,8 @@ pub struct Identity {
     pub resets: u32,
     /// Mode in which the last reset came, if the log has survived it.
     pub mode_at_reset: Option<Mode>,
+    /// What it is clocked by.
+    pub clock: Clock,
 }
 
 /// How time goes.
@@ -158,49 +169,6 @@ pub struct Torques {
     pub latency: u32,
 }
 
-/// Counts and logs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Status {
-    /// Mode now.
-    pub mode: Mode,
-    /// Frames received, by kind.
-    pub received: Tally,
-    /// Records of ticks that found the telemetry queue full.
-    pub telemetry_dropped: u32,
-    /// Measurements that found their queue full.
-    pub measurements_dropped: u32,
-    /// Ticks that took longer than their period.
-    pub overruns: u32,
-    /// Torques cut to their limits.
-    pub cut_torques: u32,
-    /// Deepest the stack has been, bytes.
-    pub stack_bytes: u32,
-    /// What has survived resets.
-    pub log: FaultLog,
-}
-
-/// The log that survives a reset.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct FaultLog {
-    /// Resets seen.
-    pub resets: u32,
-    /// Mode in which the last reset came.
-    pub mode_at_reset: Option<Mode>,
-    /// Last stops, oldest first.
-    pub stops: Vec<LoggedFault, 8>,
-}
-
-/// One stop.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct LoggedFault {
-    /// Number of the reset before it.
-    pub reset: u32,
-    /// Tick since that reset.
-    pub tick: u32,
-    /// Why.
-    pub reason: StopReason,
-}
-
 /// Costs of a tick's stages, each alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Stages {
@@ -229,6 +197,8 @@ pub enum Injection {
     Reset,
     /// Power fails for longer: a reset, the memory loses its contents.
     ResetAndForget,
+    /// The program ends of this, whatever the numbers in it.
+    Crash(Crash),
     /// Ends the emulator.
     Exit,
 }
@@ -259,6 +229,11 @@ impl From<&RobotState<f32, LEGS>> for Sensors {
 }
 
 impl Settings {
+    /// Time between ticks, µs.
+    pub fn period_us(&self) -> u32 {
+        (self.period * 1e6 + 0.5) as u32
+    }
+
     /// Whether all numbers but limits make sense: of these the target's own decide.
     pub fn is_valid(&self) -> bool {
         let positive = |x: f32| x.is_finite() && x > 0.0;
@@ -275,5 +250,21 @@ impl SetPoint {
     pub fn is_valid(&self) -> bool {
         let norm: f32 = self.orientation.iter().map(|x| x * x).sum();
         self.position.iter().all(|x| x.is_finite()) && (norm - 1.0).abs() < 2e-3
+    }
+}
+
+impl core::fmt::Display for Acknowledged {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Done => f.write_str("done"),
+            Self::Busy => f.write_str("not in this mode"),
+            Self::Invalid => f.write_str("numbers out of range"),
+            Self::Limit(error) => error.fmt(f),
+            Self::Unsupported => f.write_str("this firmware does not do that"),
+            Self::TooFast(us) => {
+                write!(f, "a measurement a tick needs periods of {us} µs or more on this line")
+            }
+            Self::TooSlow(us) => write!(f, "its timer counts periods of up to {us} µs"),
+        }
     }
 }

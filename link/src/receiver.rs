@@ -1,6 +1,7 @@
 //! The receiving end: bytes in, messages or reasons out.
 
-use crate::frame::{CHECKSUM, CHECKSUM_BYTES, FRAME, Header, VERSION};
+use crate::frame::{CHECKSUM_BYTES, FRAME, VERSION, checksum};
+use crate::sequence::{FrameNumber, SequenceWindow};
 use core::marker::PhantomData;
 use heapless::Vec;
 use serde::de::DeserializeOwned;
@@ -19,6 +20,8 @@ pub enum Rejected {
     Version(u8),
     /// Its number is that of the last frame, or one before.
     OutOfOrder,
+    /// The first of another session: its sender has begun anew, and its next frame will be accepted.
+    Session,
     /// Arrived whole, but is no message.
     Malformed,
 }
@@ -40,6 +43,8 @@ pub struct Tally {
     pub version: u32,
     /// See [`Rejected::OutOfOrder`].
     pub out_of_order: u32,
+    /// See [`Rejected::Session`].
+    pub session: u32,
     /// See [`Rejected::Malformed`].
     pub malformed: u32,
 }
@@ -50,7 +55,7 @@ pub struct Receiver<M> {
     bytes: Vec<u8, FRAME>,
     /// The present frame is longer than a frame can be.
     is_too_long: bool,
-    last: Option<u32>,
+    window: SequenceWindow,
     tally: Tally,
     message: PhantomData<M>,
 }
@@ -61,7 +66,7 @@ impl<M: DeserializeOwned> Receiver<M> {
         Self {
             bytes: Vec::new(),
             is_too_long: false,
-            last: None,
+            window: SequenceWindow::new(),
             tally: Tally {
                 accepted: 0,
                 lost: 0,
@@ -70,6 +75,7 @@ impl<M: DeserializeOwned> Receiver<M> {
                 corrupted: 0,
                 version: 0,
                 out_of_order: 0,
+                session: 0,
                 malformed: 0,
             },
             message: PhantomData,
@@ -92,6 +98,7 @@ impl<M: DeserializeOwned> Receiver<M> {
             Err(Rejected::Corrupted) => &mut self.tally.corrupted,
             Err(Rejected::Version(_)) => &mut self.tally.version,
             Err(Rejected::OutOfOrder) => &mut self.tally.out_of_order,
+            Err(Rejected::Session) => &mut self.tally.session,
             Err(Rejected::Malformed) => &mut self.tally.malformed,
         };
         *count = count.saturating_add(1);
@@ -103,32 +110,32 @@ impl<M: DeserializeOwned> Receiver<M> {
         self.tally
     }
 
+    /// Session of the sender, as of the last frame that was not rejected.
+    pub fn session(&self) -> Option<u32> {
+        self.window.session()
+    }
+
     fn decode(&mut self) -> Result<M, Rejected> {
         let length = cobs::decode_in_place(&mut self.bytes).map_err(|_| Rejected::Truncated)?;
         let frame = self.bytes.get(..length).ok_or(Rejected::Truncated)?;
-        let (plain, checksum) =
-            frame.split_last_chunk::<CHECKSUM_BYTES>().ok_or(Rejected::Truncated)?;
-        if CHECKSUM.checksum(plain) != u32::from_le_bytes(*checksum) {
+        let (plain, sum) = frame.split_last_chunk::<CHECKSUM_BYTES>().ok_or(Rejected::Truncated)?;
+        if checksum(plain) != u32::from_le_bytes(*sum) {
             return Err(Rejected::Corrupted);
         }
-        let (header, rest) =
-            postcard::take_from_bytes::<Header>(plain).map_err(|_| Rejected::Malformed)?;
-        if header.version != VERSION {
-            return Err(Rejected::Version(header.version));
+        let (version, plain) = plain.split_first().ok_or(Rejected::Malformed)?;
+        if *version != VERSION {
+            return Err(Rejected::Version(*version));
         }
-        // Number 0 is a sender that has begun anew.
-        let last = self.last.filter(|_| header.sequence != 0);
-        let ahead = last.map_or(1, |last| header.sequence.wrapping_sub(last));
-        if ahead == 0 || ahead > u32::MAX / 2 {
-            return Err(Rejected::OutOfOrder);
-        }
+        let ((session, sequence), rest) =
+            postcard::take_from_bytes::<([u8; 4], u32)>(plain).map_err(|_| Rejected::Malformed)?;
+        let session = u32::from_le_bytes(session);
+        let lost = self.window.accept(FrameNumber { session, sequence })?;
         let (message, rest) =
             postcard::take_from_bytes::<M>(rest).map_err(|_| Rejected::Malformed)?;
         if !rest.is_empty() {
             return Err(Rejected::Malformed);
         }
-        self.tally.lost = self.tally.lost.saturating_add(ahead - 1);
-        self.last = Some(header.sequence);
+        self.tally.lost = self.tally.lost.saturating_add(lost);
         Ok(message)
     }
 }
@@ -149,6 +156,7 @@ impl core::fmt::Display for Rejected {
                 write!(f, "the other end speaks version {theirs} of the link, this one {VERSION}")
             }
             Self::OutOfOrder => f.write_str("a frame came twice or out of order"),
+            Self::Session => f.write_str("the other end has begun anew"),
             Self::Malformed => f.write_str("a frame held no message"),
         }
     }

@@ -77,7 +77,8 @@ impl Bench {
     /// One tick whose frame arrives as `spoil` makes it.
     pub fn tick_with_frame(&mut self, spoil: impl FnOnce(Vec<u8>) -> Vec<u8>) -> Torques {
         let sensors = self.sensors();
-        let frame = self.target.frame(&ToTarget::Sensors(sensors));
+        let measurement = self.target.measurement(&sensors);
+        let frame = self.target.frame(&measurement);
         let torques = self.target.tick_raw(&spoil(frame)).expect("an answer");
         self.obey(&torques);
         torques

@@ -3,7 +3,7 @@
 
 use crate::bench::{Bench, arm};
 use surefoot::balance::{Fault, Input, LimitError, LimitFault, LimitField, Mode, StopReason};
-use surefoot_link::{Injection, Sensors, ToTarget, Torques};
+use surefoot_link::{Crash, FRAME, Injection, Sender, Sensors, ToTarget, Torques};
 
 /// The robot is rising then, with joint rates of up to 2 rad/s.
 const MIDDLE: usize = 60;
@@ -246,10 +246,65 @@ fn a_brown_out() {
     }
 }
 
+/// The program ends in the middle of a run, of a panic, a hard fault, and an interrupt that nothing
+/// handles: it is reset, torques are zero, and the log knows of what.
+#[test]
+fn crashes() {
+    let mut bench = Bench::after(MIDDLE);
+    let scene = bench.scene.clone();
+    let crashes = [
+        Crash::Panic { line: 0 },
+        Crash::HardFault { at: 0, status: 0 },
+        Crash::Unhandled { number: 0 },
+    ];
+    for (number, crash) in (1..).zip(crashes) {
+        let identity = bench.target.reset(Injection::Crash(crash)).expect("an answer");
+        assert_eq!((identity.resets, identity.mode_at_reset), (number + 1, Some(Mode::Active)));
+        let log = bench.target.status().expect("an answer").log;
+        assert_eq!(log.crashes, number);
+        match log.crash.expect("one in the log") {
+            Crash::Panic { line } => assert!(number == 1 && line > 0),
+            Crash::HardFault { at, status } => {
+                assert_eq!(number, 2);
+                assert!((0x0800_0000..0x0810_0000).contains(&at), "{at:#x} is not in flash");
+                // UNDEFINSTR (ARMv7-M B3.2.15).
+                assert_eq!(status, 1 << 16);
+            }
+            // CAN1_TX (RM0090, table 61).
+            Crash::Unhandled { number: interrupt } => assert_eq!((number, interrupt), (3, 19)),
+        }
+        let sensors = bench.sensors();
+        let torques = bench.target.tick(&sensors).expect("an answer");
+        assert_eq!((torques.mode, torques.joint_torques), (Mode::Standby, [[0.0; 6]; 2]));
+        arm(&mut bench.target, &scene);
+        assert_eq!(bench.target.tick(&sensors).expect("an answer").mode, Mode::Active);
+    }
+}
+
+/// Frames of another session: the first is no measurement, the second is one.
+#[test]
+fn a_host_that_begins_anew() {
+    let mut bench = Bench::after(MIDDLE);
+    let mut other = Sender::new(7);
+    for _ in 0..3 {
+        let sensors = bench.sensors();
+        let measurement = bench.target.measurement(&sensors);
+        let mut wire = [0; FRAME];
+        let frame = other.encode(&measurement, &mut wire).expect("it fits").to_vec();
+        assert_eq!(bench.tick_with_frame(|_| frame).mode, Mode::Active);
+    }
+    for _ in 0..3 {
+        assert_eq!(bench.tick(|_| {}).mode, Mode::Active);
+    }
+    let received = bench.target.status().expect("an answer").received;
+    assert_eq!((received.session, received.out_of_order), (2, 0));
+}
+
 /// Orders with numbers that make no sense, or at the wrong time, are refused, and change nothing.
 #[test]
 fn orders_that_make_no_sense() {
-    use surefoot_link::Acknowledged::{Busy, Invalid, Limit};
+    use surefoot_link::Acknowledged::{Busy, Invalid, Limit, TooFast, TooSlow};
+    use surefoot_link::{BAUD, Pacing, shortest_period_us};
     use surefoot_sim::closed_loop::firmware::{LinkError, set_point, settings};
     let mut bench = Bench::after(5);
     let good = settings(&bench.scene);
@@ -282,6 +337,13 @@ fn orders_that_make_no_sense() {
     bad.thresholds.least_upright = 0.5;
     let answer = limit(None, LimitField::Upright, LimitFault::Widens);
     assert_eq!(refused(&mut bench, ToTarget::Configure(bad)), answer);
+    // On its own clock the line, and the emulator's timer, have their limits.
+    bad = good;
+    bad.pacing = Pacing::FreeRunning;
+    bad.period = 7e-4;
+    assert_eq!(refused(&mut bench, ToTarget::Configure(bad)), TooFast(shortest_period_us(BAUD)));
+    bad.period = 0.5;
+    assert_eq!(refused(&mut bench, ToTarget::Configure(bad)), TooSlow(99_864));
     let scene = bench.scene.clone();
     arm(&mut bench.target, &scene);
     assert_eq!(bench.tick(|_| {}).mode, Mode::Active);

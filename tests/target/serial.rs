@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 use surefoot::balance::Mode;
-use surefoot_link::{Pacing, ToTarget};
+use surefoot_link::{LineErrors, Pacing, ToTarget};
 use surefoot_sim::closed_loop::firmware::{Emulator, SerialPort, Target, settings};
 use surefoot_sim::scene::load;
 
@@ -67,6 +67,8 @@ fn the_uart_carries_the_same_bits() {
     }
     let received = over_uart.target.status().expect("an answer").received;
     assert_eq!((received.corrupted, received.lost), (0, 0));
+    let line = over_uart.target.status().expect("an answer").line;
+    assert_eq!(line, LineErrors::default());
 }
 
 /// On its own timer, with every tick logged: none is late, none overruns; and when the host falls
@@ -87,7 +89,12 @@ fn a_free_running_target_keeps_its_deadline_and_stops_without_its_host() {
         let status = target.status().expect("an answer");
         assert_eq!((status.mode, status.overruns), (Mode::Standby, 0));
         target.order("arm", &ToTarget::Arm).expect("obeyed");
-        let torques = target.tick(&Bench::sensors_of(&scene)).expect("an answer");
+        let measurement = target.measurement(&Bench::sensors_of(&scene));
+        let frame = target.frame(&measurement);
+        let torques = target.tick_raw(&frame).expect("an answer");
+        // In a frame of its own, and still no measurement: it has been one.
+        let frame = target.frame(&measurement);
+        target.send_raw(&frame).expect("sent");
         (torques.mode == Mode::Active).then_some((emulator, target, torques))
     });
     let (_emulator, mut target, torques) = in_time.expect("a measurement that comes in time");
@@ -104,7 +111,7 @@ fn a_free_running_target_keeps_its_deadline_and_stops_without_its_host() {
         status = target.status().expect("an answer");
     }
     assert_eq!(status.mode, Mode::Stopped);
-    assert_eq!(status.overruns, 0);
+    assert_eq!((status.overruns, status.measurements_stale), (0, 1));
     let last = status.log.stops.last().expect("a stop in the log");
     assert_eq!(last.reason, surefoot::balance::StopReason::Stale);
     // The tick after the measurement is bridged, the next one stops.

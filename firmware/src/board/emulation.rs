@@ -16,6 +16,8 @@ use semihosting::io::{Read, Write};
 const COUNTS: u64 = 2688;
 /// SysTick, Hz.
 const SYSTICK_HZ: f32 = 168e6;
+/// Counts of TIM5's clock in a µs: QEMU's timers have 1 GHz.
+pub const MICROSECOND: u16 = 1000;
 /// SysTick counts down from here, and over: from its largest, or over one period.
 static RELOAD: AtomicU32 = AtomicU32::new(0x00ff_ffff);
 
@@ -26,12 +28,15 @@ pub struct TickTimer {
 }
 
 impl TickTimer {
+    /// Longest period, µs: 2²⁴ counts.
+    pub const LONGEST_US: u32 = ((1 << 24) as f32 / SYSTICK_HZ * 1e6) as u32;
+
     /// Not running yet.
     pub fn new(_: device::TIM2, counter: Counter) -> Self {
         Self { counter, is_running: false }
     }
 
-    /// A tick every `period` seconds, of at most 99 ms.
+    /// A tick every `period` seconds.
     pub fn run(&mut self, period: f32) {
         let reload = ((period * SYSTICK_HZ) as u32).clamp(1, 0x00ff_ffff) - 1;
         RELOAD.store(reload, Ordering::Relaxed);
@@ -99,12 +104,6 @@ impl Counter {
         ((u64::from(counts) * 1000 + COUNTS / 2) / COUNTS) as u32
     }
 
-    /// Cost of a time in seconds.
-    #[inline(always)]
-    pub fn cost_of(seconds: f32) -> u32 {
-        (seconds * Self::PER_SECOND as f32) as u32
-    }
-
     /// Passes time.
     pub fn wait(self, cost: u32) {
         let begin = self.now();
@@ -120,14 +119,22 @@ pub enum Link {
     Uart(Uart),
 }
 
+/// Looks for the pipes.
+pub fn link(uart: Uart) -> Link {
+    let from_host = File::open(c"to-target");
+    let to_host = File::create(c"to-host");
+    match (from_host, to_host) {
+        (Ok(from_host), Ok(to_host)) => Link::Pipes(from_host, to_host),
+        _ => Link::Uart(uart),
+    }
+}
+
 impl Link {
-    /// Looks for the pipes.
-    pub fn start(uart: Uart) -> Self {
-        let from_host = File::open(c"to-target");
-        let to_host = File::create(c"to-host");
-        match (from_host, to_host) {
-            (Ok(from_host), Ok(to_host)) => Self::Pipes(from_host, to_host),
-            _ => Self::Uart(uart),
+    /// Whether something has arrived. Over pipes that is known by waiting for it.
+    pub fn has_bytes(&self) -> bool {
+        match self {
+            Self::Pipes(..) => true,
+            Self::Uart(uart) => uart.has_bytes(),
         }
     }
 
@@ -155,6 +162,9 @@ impl Link {
         }
     }
 }
+
+/// Does not sleep: an emulator that sleeps lets time go by the clock on the wall.
+pub fn sleep_unless(_: impl FnOnce() -> bool) {}
 
 /// Ends the emulator.
 pub fn exit() -> ! {

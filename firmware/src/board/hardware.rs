@@ -4,12 +4,16 @@ use super::stm32f405::{Uart, device, since_due};
 use core::cell::UnsafeCell;
 use cortex_m::peripheral::DWT;
 use rtt_target::{ChannelMode, UpChannel, rtt_init};
+use surefoot_firmware::sleep::{self, Processor};
 
 /// Clock of the core, Hz.
 const CORE_HZ: u32 = 168_000_000;
 
 /// Clock of TIM2: APB1's, doubled (RM0090, §7.2).
 const TIMER_HZ: u32 = 84_000_000;
+
+/// Counts of TIM5's clock in a µs: APB1's, doubled.
+pub const MICROSECOND: u16 = 84;
 
 /// Makes ticks due.
 pub struct TickTimer {
@@ -18,6 +22,9 @@ pub struct TickTimer {
 }
 
 impl TickTimer {
+    /// Longest period, µs: 2³² counts.
+    pub const LONGEST_US: u32 = ((1_u64 << 32) * 1_000_000 / TIMER_HZ as u64) as u32;
+
     /// Not running yet.
     pub fn new(registers: device::TIM2, counter: Counter) -> Self {
         registers.dier().write(|w| w.uie().set_bit());
@@ -81,36 +88,37 @@ impl Counter {
     pub fn since(self, begin: u32) -> u32 {
         DWT::cycle_count().wrapping_sub(begin)
     }
-
-    /// Cost of a time in seconds.
-    #[inline(always)]
-    pub fn cost_of(seconds: f32) -> u32 {
-        (seconds * CORE_HZ as f32) as u32
-    }
 }
 
 /// The UART.
-pub struct Link(Uart);
+pub type Link = Uart;
 
-impl Link {
-    /// Also opens the channel for logs.
-    pub fn start(uart: Uart) -> Self {
-        let channels = rtt_init! {
-            up: { 0: { size: 2048, mode: ChannelMode::NoBlockSkip, name: "defmt" } }
-        };
-        // SAFETY: before the first log message, and with interrupts off, as in all of `init`.
-        unsafe { *LOG.0.get() = Some(channels.up.0) };
-        Self(uart)
+/// Also opens the channel for logs.
+pub fn link(uart: Uart) -> Link {
+    let channels = rtt_init! {
+        up: { 0: { size: 2048, mode: ChannelMode::NoBlockSkip, name: "defmt" } }
+    };
+    // SAFETY: before the first log message, and with interrupts off, as in all of `init`.
+    unsafe { *LOG.0.get() = Some(channels.up.0) };
+    uart
+}
+
+/// Sleeps until an interrupt, unless there is work.
+pub fn sleep_unless(has_work: impl FnOnce() -> bool) {
+    sleep::sleep_unless(&Core, has_work);
+}
+
+struct Core;
+
+impl Processor for Core {
+    fn masked(&self, run: impl FnOnce()) {
+        cortex_m::interrupt::free(|_| run());
     }
 
-    /// What has arrived, at least something after a while.
-    pub fn receive(&mut self, buffer: &mut [u8]) -> usize {
-        self.0.receive(buffer)
-    }
-
-    /// Sends all bytes.
-    pub fn send(&mut self, bytes: &[u8]) {
-        self.0.send(bytes);
+    fn wait(&self) {
+        // Memory is up to date before the core stops.
+        cortex_m::asm::dsb();
+        cortex_m::asm::wfi();
     }
 }
 

@@ -5,6 +5,7 @@
 //! `main.rs` says `binds`.
 
 mod stm32f405;
+mod stm32f4_clock;
 
 #[cfg(feature = "emulation")]
 mod emulation;
@@ -12,7 +13,30 @@ mod emulation;
 mod hardware;
 
 #[cfg(feature = "emulation")]
-pub use emulation::{Counter, Link, TickTimer, due, exit, log};
+pub use emulation::{Counter, Link, TickTimer, due, exit, log, sleep_unless};
+#[cfg(feature = "emulation")]
+use emulation::{MICROSECOND, link};
 #[cfg(not(feature = "emulation"))]
-pub use hardware::{Counter, Link, TickTimer, log};
-pub use stm32f405::{Board, ByteQueue, Motors, UartReceiver, Watchdog, device, restart, tick_now};
+pub use hardware::{Counter, Link, TickTimer, log, sleep_unless};
+#[cfg(not(feature = "emulation"))]
+use hardware::{MICROSECOND, link};
+pub use stm32f405::{
+    Board, ByteQueue, Motors, UartReceiver, Watchdog, device, line_errors, motors_off, now_us,
+    restart, tick_now,
+};
+use surefoot_firmware::watchdog::LONGEST_PERIOD_US;
+
+/// Longest period that timer and watchdog can do, µs.
+pub const LONGEST_US: u32 = if TickTimer::LONGEST_US < LONGEST_PERIOD_US {
+    TickTimer::LONGEST_US
+} else {
+    LONGEST_PERIOD_US
+};
+
+impl Counter {
+    /// Cost of a time in seconds.
+    #[inline(always)]
+    pub fn cost_of(seconds: f32) -> u32 {
+        (seconds * Self::PER_SECOND as f32) as u32
+    }
+}

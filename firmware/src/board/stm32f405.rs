@@ -3,23 +3,28 @@
 //! | what | where |
 //! |---|---|
 //! | tick | interrupt TIM2, of that timer on the chip |
-//! | link | USART1, PA9 out, PA10 in, 921600 baud, interrupt USART1 |
+//! | link | USART1, PA9 out, PA10 in, 3 Mbaud, interrupt USART1 |
 //! | motor enable | PB0, high while torques may differ from zero |
-//! | clock | internal 16 MHz oscillator (±1 %) and PLL, so that any crystal will do |
+//! | clock | the crystal and PLL, or the internal oscillator (`stm32f4_clock.rs`) |
+//! | µs | TIM5, which goes round after 71 minutes |
 
-use super::{Counter, Link, TickTimer};
+use super::{Counter, Link, MICROSECOND, TickTimer, stm32f4_clock};
 use core::sync::atomic::{AtomicU32, Ordering};
 use heapless::spsc::{Consumer, Producer, Queue};
-use surefoot_link::LEGS;
+use surefoot_firmware::clock::divider;
+use surefoot_firmware::uart::{self, Errors};
+use surefoot_firmware::watchdog;
+use surefoot_link::{BAUD, Clock, FRAME, LEGS, LineErrors};
 
 pub use stm32f4::stm32f405 as device;
 
-/// Received bytes on their way to idle: 2 ms of traffic at 921600 baud.
+/// Received bytes on their way to idle. While idle sends the longest frame, at the line's rate or up to
+/// half as slow for the ticks between, at most twice as many bytes come, at the same rate.
 pub type ByteQueue = Queue<u8, BYTES>;
-const BYTES: usize = 256;
+const BYTES: usize = 2 * FRAME;
 
-/// Divides APB2's 84 MHz to 921600 baud: 91.15, by 16 at 1/16ths as §30.3.4 has it, is 0x05b.
-const BAUD_921600: u16 = 91;
+/// Clock of USART1: APB2's, Hz.
+const UART_HZ: u32 = 84_000_000;
 
 /// The board's parts, each for one owner.
 pub struct Board {
@@ -35,6 +40,8 @@ pub struct Board {
     pub uart: UartReceiver,
     /// For idle.
     pub link: Link,
+    /// What it is clocked by.
+    pub clock: Clock,
 }
 
 impl Board {
@@ -45,22 +52,33 @@ impl Board {
         bytes_in: Producer<'static, u8, BYTES>,
         bytes_out: Consumer<'static, u8, BYTES>,
     ) -> Self {
-        let device::Peripherals { RCC, FLASH, GPIOA, GPIOB, TIM2, USART1, IWDG, .. } = device;
-        // QEMU has no clock tree: to wait for the PLL there is to wait for ever.
-        if cfg!(not(feature = "emulation")) {
-            start_clock(&RCC, &FLASH);
-        }
+        let device::Peripherals {
+            RCC, FLASH, GPIOA, GPIOB, TIM2, TIM5, TIM11, USART1, IWDG, ..
+        } = device;
+        // QEMU has no clock tree.
+        let clock = if cfg!(feature = "emulation") {
+            Clock::Emulated
+        } else {
+            stm32f4_clock::start(&RCC, &FLASH, &TIM11)
+        };
         RCC.ahb1enr().modify(|_, w| w.gpioaen().set_bit().gpioben().set_bit());
-        RCC.apb1enr().modify(|_, w| w.tim2en().set_bit());
+        RCC.apb1enr().modify(|_, w| w.tim2en().set_bit().tim5en().set_bit());
         RCC.apb2enr().modify(|_, w| w.usart1en().set_bit());
         // PB0: output, low. PA9, PA10: alternate function 7, USART1 (datasheet, table 9).
         GPIOB.bsrr().write(|w| w.br0().set_bit());
         GPIOB.moder().modify(|_, w| w.moder0().output());
+        // Pulled up, so that a line without a host is silent.
+        GPIOA.pupdr().modify(|_, w| w.pupdr10().pull_up());
         GPIOA.afrh().modify(|_, w| w.afrh9().af7().afrh10().af7());
         GPIOA.moder().modify(|_, w| w.moder9().alternate().moder10().alternate());
 
+        TIM5.psc().write(|w| w.psc().set(MICROSECOND - 1));
+        // The divider takes effect with an update (section 18.3.1).
+        TIM5.egr().write(|w| w.ug().set_bit());
+        TIM5.cr1().write(|w| w.cen().set_bit());
+
         // SAFETY: the divider is a number, and any is allowed.
-        USART1.brr().write(|w| unsafe { w.bits(BAUD_921600) });
+        USART1.brr().write(|w| unsafe { w.bits(const { divider(UART_HZ, BAUD) }) });
         USART1.cr1().write(|w| w.ue().set_bit().te().set_bit().re().set_bit().rxneie().set_bit());
         let counter = Counter::start(core);
         Self {
@@ -69,23 +87,17 @@ impl Board {
             motors: Motors { port: GPIOB },
             watchdog: Watchdog { registers: IWDG },
             uart: UartReceiver { bytes: bytes_in },
-            link: Link::start(Uart { registers: USART1, bytes: bytes_out }),
+            link: super::link(Uart { registers: USART1, bytes: bytes_out }),
+            clock,
         }
     }
 }
 
-/// 168 MHz from the internal oscillator: 16 MHz / 16 · 336 / 2 (§7.3.2), five wait states (§3.5.1).
-fn start_clock(rcc: &device::RCC, flash: &device::FLASH) {
-    flash.acr().write(|w| w.latency().ws5().prften().set_bit().icen().set_bit().dcen().set_bit());
-    // SAFETY: 16, 336 and 7 are within the fields' ranges; PLLP = 0 stands for 2.
-    rcc.pllcfgr().write(|w| unsafe {
-        w.pllm().bits(16).plln().bits(336).pllp().div2().pllsrc().hsi().pllq().bits(7)
-    });
-    rcc.cr().modify(|_, w| w.pllon().set_bit());
-    while rcc.cr().read().pllrdy().bit_is_clear() {}
-    rcc.cfgr().modify(|_, w| w.hpre().div1().ppre1().div4().ppre2().div2());
-    rcc.cfgr().modify(|_, w| w.sw().pll());
-    while !rcc.cfgr().read().sws().is_pll() {}
+/// µs since the reset.
+#[inline(always)]
+pub fn now_us() -> u32 {
+    // SAFETY: a read without effect.
+    unsafe { (*device::TIM5::ptr()).cnt().read().bits() }
 }
 
 /// When the present tick was due, in lock step.
@@ -118,20 +130,44 @@ impl Motors {
     }
 }
 
+/// No torque, at once and from anywhere: the safe state of this board.
+pub fn motors_off() {
+    // SAFETY: a write that resets one pin, and no other.
+    unsafe { (*device::GPIOB::ptr()).bsrr().write(|w| w.br0().set_bit()) };
+}
+
 /// Resets a firmware whose tick hangs. It starts with the first free-running tick, and then cannot be
-/// stopped (§21.3).
+/// stopped (section 21.3).
 pub struct Watchdog {
     registers: device::IWDG,
 }
 
 impl Watchdog {
-    /// 32 kHz / 16, so that 100 counts are 50 ms; with `period`, in seconds, of at most 10 ms.
-    pub fn start(&mut self) {
+    /// Waits for three periods of this many µs at least, from now on. It is in standby; setting the
+    /// registers takes up to five periods of the slow oscillator, 0.3 ms.
+    pub fn start(&mut self, period_us: u32) {
+        let Some(setting) = watchdog::Watchdog::covering(period_us) else { return };
         self.registers.kr().write(|w| w.key().start());
         self.registers.kr().write(|w| w.key().unlock());
-        self.registers.pr().write(|w| w.pr().divide_by16());
-        self.registers.rlr().write(|w| w.rl().set(100));
+        self.await_update();
+        self.registers.pr().write(|w| w.pr().set(setting.prescaler));
+        self.registers.rlr().write(|w| w.rl().set(setting.reload));
+        // Fed before, it would count down from the old number (section 21.4.4).
+        self.await_update();
         self.feed();
+    }
+
+    /// Not for ever, should the oscillator be dead: 20 000 reads take a millisecond.
+    fn await_update(&self) {
+        let is_updating = || {
+            let status = self.registers.sr().read();
+            status.pvu().bit_is_set() || status.rvu().bit_is_set()
+        };
+        for _ in 0..20_000 {
+            if !is_updating() {
+                break;
+            }
+        }
     }
 
     /// Not yet.
@@ -146,13 +182,40 @@ pub struct UartReceiver {
     bytes: Producer<'static, u8, BYTES>,
 }
 
+static ERRORS: Errors = Errors::new();
+
+/// What the UART has found wrong.
+pub fn line_errors() -> LineErrors {
+    ERRORS.tally()
+}
+
+/// The UART's registers, as its interrupt sees them.
+struct Usart1;
+
+impl uart::Registers for Usart1 {
+    #[inline(always)]
+    fn status(&self) -> u32 {
+        // SAFETY: of all others only `Uart::send` reads it, which the interrupt can interrupt, and not
+        // the other way round: so no flag is cleared that the interrupt has not seen.
+        unsafe { (*device::USART1::ptr()).sr().read().bits().into() }
+    }
+
+    #[inline(always)]
+    fn data(&self) -> u32 {
+        // SAFETY: nothing else reads it.
+        unsafe { (*device::USART1::ptr()).dr().read().bits().into() }
+    }
+}
+
 impl UartReceiver {
     /// One byte into the queue; a full queue loses it, and with it a frame, which is then counted.
+    #[inline(always)]
     pub fn receive(&mut self) {
-        // SAFETY: of USART1's registers only this reads the data register; reading it is what
-        // acknowledges the interrupt.
-        let byte = unsafe { (*device::USART1::ptr()).dr().read().dr().bits() };
-        let _ = self.bytes.enqueue(byte as u8);
+        if let Some(byte) = uart::receive(&Usart1, &ERRORS)
+            && self.bytes.enqueue(byte).is_err()
+        {
+            ERRORS.note_unqueued();
+        }
     }
 }
 
@@ -163,17 +226,18 @@ pub struct Uart {
 }
 
 impl Uart {
-    /// What has arrived; sleeps until the next interrupt if there is nothing.
+    /// Whether something has arrived.
+    pub fn has_bytes(&self) -> bool {
+        self.bytes.ready()
+    }
+
+    /// What has arrived.
     pub fn receive(&mut self, buffer: &mut [u8]) -> usize {
         let mut received = 0;
         for place in buffer.iter_mut() {
             let Some(byte) = self.bytes.dequeue() else { break };
             *place = byte;
             received += 1;
-        }
-        // An emulator that sleeps lets time go by the clock on the wall.
-        if received == 0 && cfg!(not(feature = "emulation")) {
-            cortex_m::asm::wfi();
         }
         received
     }

@@ -6,6 +6,7 @@ use crate::scene::Scene;
 use clap::Args;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
+use surefoot_link::Clock;
 
 /// Options of `run` about the controller.
 #[derive(Debug, Args)]
@@ -87,6 +88,9 @@ impl ControllerOptions {
                 Target::connect(Emulator::start(image, &std::env::temp_dir())?)?
             }
         };
+        if let Clock::Internal(reason) = target.identity().clock {
+            eprintln!("the board runs without its crystal: {reason}");
+        }
         Ok(Box::new(FirmwareController::new(target, scene)?))
     }
 }

@@ -9,6 +9,7 @@ mod experiment_2;
 mod falls;
 mod hardware;
 mod limits;
+mod link;
 mod parsimony;
 mod plants;
 mod sensing;

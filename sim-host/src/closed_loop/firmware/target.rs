@@ -2,14 +2,18 @@
 
 use super::Transport;
 use std::collections::VecDeque;
+use std::hash::{BuildHasher, Hasher, RandomState};
 use std::time::{Duration, Instant};
 use surefoot_link::{
-    Acknowledged, FRAME, FromTarget, Identity, Injection, Receiver, Rejected, Sender, Sensors,
-    Stages, Status, ToTarget, Torques,
+    Acknowledged, Clock, FRAME, FromTarget, Identity, Injection, Receiver, Rejected, Sender,
+    Sensors, Stages, Status, ToTarget, Torques,
 };
 
 /// How long a target may take for an answer. An emulated one on a busy machine takes milliseconds.
 const PATIENCE: Duration = Duration::from_secs(10);
+
+/// How long it may take to say who it is before it is asked again: the question may have been lost.
+const ASK_AGAIN: Duration = Duration::from_secs(1);
 
 /// What is wrong with a link.
 #[derive(Debug, thiserror::Error)]
@@ -25,14 +29,14 @@ pub enum LinkError {
     /// No answer.
     #[error("the target has not answered for {0:?}")]
     Silent(Duration),
-    /// The emulator has ended.
-    #[error("the emulator has ended: {0}")]
+    /// The emulator has ended, or the port's adapter is gone.
+    #[error("the other end has ended: {0}")]
     Ended(String),
     /// A frame of the target's was no good.
     #[error("from the target: {0}")]
     Rejected(Rejected),
     /// The target does not do as told.
-    #[error("the target refuses {order}: {answer:?}")]
+    #[error("the target refuses {order}: {answer}")]
     Refused {
         /// The order.
         order: &'static str,
@@ -54,6 +58,8 @@ pub struct Target {
     receiver: Receiver<FromTarget>,
     arrived: VecDeque<Result<FromTarget, Rejected>>,
     identity: Identity,
+    /// Where this side's clock began.
+    begin: Instant,
 }
 
 impl Target {
@@ -64,7 +70,7 @@ impl Target {
     pub fn connect(transport: impl Transport + 'static) -> Result<Self, LinkError> {
         let mut target = Self {
             transport: Box::new(transport),
-            sender: Sender::new(),
+            sender: sender(),
             receiver: Receiver::new(),
             arrived: VecDeque::new(),
             // Replaced by the first answer.
@@ -73,10 +79,14 @@ impl Target {
                 per_second: 0,
                 resets: 0,
                 mode_at_reset: None,
+                clock: Clock::Emulated,
             },
+            begin: Instant::now(),
         };
         // An end of a frame first: whatever the target had heard half of is over.
         target.send_raw(&[0])?;
+        // Where it has heard another session before this one, it believes the second frame.
+        target.send(&ToTarget::Hello)?;
         target.send(&ToTarget::Hello)?;
         target.identity = target.await_identity()?;
         // A target that has just been reset says so by itself, and then answers too.
@@ -107,8 +117,15 @@ impl Target {
     /// # Errors
     /// A [`LinkError`].
     pub fn tick(&mut self, sensors: &Sensors) -> Result<Torques, LinkError> {
-        self.send(&ToTarget::Sensors(*sensors))?;
+        self.send(&self.measurement(sensors))?;
         self.torques()
+    }
+
+    /// The message of a measurement that is taken now.
+    pub fn measurement(&self, sensors: &Sensors) -> ToTarget {
+        // Goes round after 71 minutes.
+        let taken_us = self.begin.elapsed().as_micros() as u32;
+        ToTarget::Sensors { taken_us, sensors: *sensors }
     }
 
     /// One tick in lock step whose frame arrives as these bytes, the last of them 0.
@@ -155,8 +172,9 @@ impl Target {
     pub fn reset(&mut self, injection: Injection) -> Result<Identity, LinkError> {
         self.send(&ToTarget::Inject(injection))?;
         self.receiver = Receiver::new();
+        self.sender = sender();
         self.identity = self.await_identity()?;
-        self.sender = Sender::new();
+        self.settle()?;
         Ok(self.identity)
     }
 
@@ -180,7 +198,11 @@ impl Target {
         self.send_raw(&frame)
     }
 
-    fn send_raw(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
+    /// Sends bytes, whatever they are.
+    ///
+    /// # Errors
+    /// What is wrong with the link.
+    pub fn send_raw(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         self.transport.send(bytes)
     }
 
@@ -205,16 +227,18 @@ impl Target {
         }
     }
 
-    /// Whatever came before the identity was for someone else.
+    /// Asks until it has an answer. Whatever came before that was for someone else.
     fn await_identity(&mut self) -> Result<Identity, LinkError> {
         let begin = Instant::now();
         while begin.elapsed() < PATIENCE {
-            match self.next(PATIENCE)? {
-                Ok(FromTarget::Identity(identity)) => return Ok(identity),
-                Err(Rejected::Version(theirs)) => {
+            match self.next(ASK_AGAIN) {
+                Ok(Ok(FromTarget::Identity(identity))) => return Ok(identity),
+                Ok(Err(Rejected::Version(theirs))) => {
                     return Err(LinkError::Rejected(Rejected::Version(theirs)));
                 }
-                _ => {}
+                Ok(_) => {}
+                Err(LinkError::Silent(_)) => self.send(&ToTarget::Hello)?,
+                Err(other) => return Err(other),
             }
         }
         Err(LinkError::Silent(PATIENCE))
@@ -229,4 +253,10 @@ impl Target {
             }
         }
     }
+}
+
+/// In a session of its own.
+fn sender() -> Sender {
+    // Every one of these hashes by a random key.
+    Sender::new(RandomState::new().build_hasher().finish() as u32)
 }

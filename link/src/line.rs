@@ -1,0 +1,43 @@
+//! What the serial line carries in a period.
+
+use crate::frame::most_wire_bytes;
+use crate::message::LEG;
+use crate::{LEGS, Sensors, ToTarget};
+
+/// Bits a second, of both ends. USB adapters that do it are common (FT232R, FT232H, CP2102N, CH343).
+///
+/// An STM32F4's UART at 84 MHz divides exactly to it, by 28; to 2 000 000 by 42. At 921 600 the
+/// shortest period would be 2.31 ms.
+pub const BAUD: u32 = 3_000_000;
+
+/// Start bit, eight bits of data, stop bit.
+const BITS_A_BYTE: u32 = 10;
+
+/// Share of the line that measurements may take; the rest is for orders between them.
+const SHARE: (u32, u32) = (4, 5);
+
+/// Time that the bytes of a frame take on the line, µs, rounded up; rates are hundreds of bits.
+pub const fn wire_us(bytes: u32, baud: u32) -> u32 {
+    (bytes * BITS_A_BYTE * 10_000).div_ceil(baud / 100)
+}
+
+/// Shortest period, µs, in which the line can carry one measurement a tick. Torques go the other way
+/// and are shorter.
+///
+/// A measurement of the biped takes 170 bytes at most: 567 µs at 3 Mbaud, so 709 µs.
+pub fn shortest_period_us(baud: u32) -> u32 {
+    let longest = ToTarget::Sensors { taken_us: u32::MAX, sensors: Sensors::ZERO };
+    let Some(bytes) = most_wire_bytes(&longest) else { return u32::MAX };
+    (wire_us(bytes as u32, baud) * SHARE.1).div_ceil(SHARE.0)
+}
+
+impl Sensors {
+    /// All numbers zero. Numbers take the same bytes whatever their value.
+    const ZERO: Self = Self {
+        position: [0.0; 3],
+        orientation: [0.0; 4],
+        velocity: [0.0; 6],
+        joint_angles: [[0.0; LEG]; LEGS],
+        joint_rates: [[0.0; LEG]; LEGS],
+    };
+}
