@@ -14,7 +14,7 @@ pub const TREE_F32: Tree<f32, 25, 31, 30> = TREE.to_f32();
 pub const ROBOT: LeggedRobot<f64, 4> = LeggedRobot::new(&TREE);
 
 /// As the controller sees it, in single precision.
-pub const ROBOT_F32: LeggedRobot<f32, 4> = ROBOT.to_f32(&TREE_F32);
+pub const ROBOT_F32: LeggedRobot<f32, 4> = ROBOT.to_f32();
 
 /// Indices of the feet.
 pub const FEET: [usize; 4] = [6, 12, 18, 24];

@@ -130,7 +130,7 @@ fn on_biped<T: Real>(
 static TREE: biped::Biped<f64> = biped::TREE;
 static TREE_F32: biped::Biped<f32> = biped::TREE_F32;
 static ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
-static ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32(&biped::TREE_F32);
+static ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32();
 
 /// A chain's workloads in both scalars; the trees live as long as the program.
 fn on_chain<const N: usize>() -> Vec<Workload> {

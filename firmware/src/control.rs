@@ -12,8 +12,7 @@ use surefoot::spatial::{Quaternion, SymmetricMatrix3};
 use surefoot_link::{LEGS, Pacing, SetPoint, Settings};
 
 /// The robot, in flash.
-pub static ROBOT: LeggedRobot<f32, LEGS> =
-    LeggedRobot::<f64, LEGS>::new(&biped::TREE).to_f32(&biped::TREE_F32);
+pub static ROBOT: LeggedRobot<f32, LEGS> = LeggedRobot::<f64, LEGS>::new(&biped::TREE).to_f32();
 
 /// Seconds between ticks until the host says otherwise.
 const PERIOD: f32 = 1e-3;

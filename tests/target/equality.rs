@@ -10,8 +10,7 @@ use surefoot_sim::closed_loop::{self, Commanded, ControlFailure, measured};
 use surefoot_sim::plant::PlantState;
 use surefoot_sim::scene::load;
 
-static ROBOT: LeggedRobot<f32, 2> =
-    LeggedRobot::<f64, 2>::new(&biped::TREE).to_f32(&biped::TREE_F32);
+static ROBOT: LeggedRobot<f32, 2> = LeggedRobot::<f64, 2>::new(&biped::TREE).to_f32();
 
 /// The target in the loop, and the host's controller beside it on the same measurements.
 struct Twins {

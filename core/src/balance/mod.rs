@@ -35,7 +35,7 @@ pub use foot_limits::{FootLimits, Sole};
 pub use joint_torques::joint_torques;
 pub use leg_jacobian::LegJacobian;
 pub use leg_kinematics::{CentralBody, LegKinematics, central_body, leg_kinematics};
-pub use robot::LeggedRobot;
+pub use robot::{LeggedRobot, LeggedRobotFault};
 pub use state::{Reference, RobotState};
 pub use supervisor::{Mode, SafetyLimits, StopReason, Supervised, Supervisor};
 pub use tick::{Command, tick};

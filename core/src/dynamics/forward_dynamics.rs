@@ -15,6 +15,7 @@
 use super::inverse_dynamics::{VelocityTerms, at_joint, carried, velocity_terms};
 use super::joint_block::JointBlock;
 use super::joint_motion::{JointMotion, own, own_one};
+use super::reversed::reversed;
 use super::{DynamicsFault, JointPoses};
 use crate::Real;
 use crate::model::{Axis, JointKind, Node, Tree};
@@ -44,6 +45,35 @@ pub(crate) struct Hinge<T> {
 /// O(N), about 250 multiplications and one division per revolute joint.
 #[inline]
 pub fn forward_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    joint_poses: &JointPoses<T, N, NQ>,
+    velocities: &[T; NV],
+    torques: &[T; NV],
+    external: Option<&[Wrench<T>; N]>,
+) -> Result<[T; NV], DynamicsFault> {
+    if tree.has_reversed {
+        return of_reversed(tree, joint_poses, velocities, torques, external);
+    }
+    recursion(tree, joint_poses, velocities, torques, external)
+}
+
+/// The same where some joint is reversed.
+#[cold]
+#[inline(never)]
+fn of_reversed<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    joint_poses: &JointPoses<T, N, NQ>,
+    velocities: &[T; NV],
+    torques: &[T; NV],
+    external: Option<&[Wrench<T>; N]>,
+) -> Result<[T; NV], DynamicsFault> {
+    let (velocities, torques) = (reversed(tree, velocities), reversed(tree, torques));
+    let along = recursion(tree, joint_poses, &velocities, &torques, external)?;
+    Ok(reversed(tree, &along))
+}
+
+#[inline]
+fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     tree: &Tree<T, N, NQ, NV>,
     joint_poses: &JointPoses<T, N, NQ>,
     velocities: &[T; NV],

@@ -14,6 +14,7 @@
 use super::JointPoses;
 use super::joint_motion::{JointMotion, own, own_one};
 use super::joint_poses::{JointPose, coordinates, relative};
+use super::reversed::along_axes;
 use crate::Real;
 use crate::model::{Axis, JointKind, Node, Tree};
 use crate::spatial::{AxisTurn, Pose, Quaternion, Twist};
@@ -44,6 +45,7 @@ pub fn forward_kinematics<T: Real, const N: usize, const NQ: usize, const NV: us
     velocities: &[T; NV],
     accelerations: &[T; NV],
 ) -> Kinematics<T, N> {
+    along_axes!(tree, velocities, accelerations);
     let still = BodyKinematics {
         pose: Pose { rotation: Matrix3::zeros(), position: Vector3::zeros() },
         velocity: Twist::zero(),
@@ -125,6 +127,7 @@ pub fn body_velocities<T: Real, const N: usize, const NQ: usize, const NV: usize
     joint_poses: &JointPoses<T, N, NQ>,
     velocities: &[T; NV],
 ) -> [Twist<T>; N] {
+    along_axes!(tree, velocities);
     let mut frames = [Twist::zero(); N];
     for (k, node, pose) in joint_poses.joints(&tree.nodes) {
         let mut twist =

@@ -16,6 +16,7 @@ use super::JointPoses;
 use super::forward_kinematics::inboard;
 use super::joint_motion::{JointMotion, own, own_one};
 use super::joint_poses::JointPose;
+use super::reversed::{along_axes, reverse};
 use crate::Real;
 use crate::model::{Axis, JointKind, Node, Tree};
 use crate::spatial::{Twist, Wrench};
@@ -48,6 +49,7 @@ pub fn inverse_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
     accelerations: &[T; NV],
     external: Option<&[Wrench<T>; N]>,
 ) -> [T; NV] {
+    along_axes!(tree, velocities, accelerations);
     let base = Motion {
         omega: Vector3::zeros(),
         omega_dot: Vector3::zeros(),
@@ -76,6 +78,9 @@ pub fn inverse_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
         if let Some(inboard) = node.inboard.and_then(|i| wrenches.get_mut(i)) {
             *inboard += carried(&pose, &wrench);
         }
+    }
+    if tree.has_reversed {
+        reverse(tree, &mut torques);
     }
     torques
 }

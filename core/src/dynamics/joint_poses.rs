@@ -1,6 +1,7 @@
 //! Relative poses of all joints, `g_{k.i,k.o}(θ_k)`: (3.7), (3.12).
 
 use super::DynamicsFault;
+use super::reversed::reverse_positions;
 use crate::Real;
 use crate::model::{Axis, JointKind, Node, Tree};
 use crate::spatial::{AxisTurn, Pose, Quaternion, Rotation};
@@ -14,7 +15,7 @@ use nalgebra::{Matrix3, Vector3};
 pub struct JointPoses<T, const N: usize, const NQ: usize> {
     /// Of the joint's angle; of no meaning for joints without one.
     pub(super) turns: [AxisTurn<T>; N],
-    /// Coordinates, with quaternions scaled to unit norm.
+    /// Coordinates along the frames' axes, with quaternions scaled to unit norm.
     pub(super) positions: [T; NQ],
 }
 
@@ -51,10 +52,13 @@ pub fn joint_poses<T: Real, const N: usize, const NQ: usize, const NV: usize>(
         turns: [AxisTurn { cosine: T::one(), sine: T::zero() }; N],
         positions: *positions,
     };
+    if tree.has_reversed {
+        reverse_positions(tree, &mut poses.positions);
+    }
     for (joint, (node, turn)) in tree.nodes.iter().zip(&mut poses.turns).enumerate() {
         let quaternion = match &node.kind {
             JointKind::Revolute(_) => {
-                *turn = AxisTurn::new(coordinate(node, positions));
+                *turn = AxisTurn::new(coordinate(node, &poses.positions));
                 continue;
             }
             JointKind::Spherical => node.position_start,

@@ -8,6 +8,7 @@ use super::JointPoses;
 use super::inverse_dynamics::carried;
 use super::joint_motion::JointMotion;
 use super::joint_poses::relative;
+use super::reversed::reverse_matrix;
 use crate::Real;
 use crate::model::{Axis, JointKind, Node, Tree};
 use crate::spatial::{RigidInertia, SymmetricMatrix3, Twist, Wrench};
@@ -63,6 +64,9 @@ pub fn mass_matrix<T: Real, const N: usize, const NQ: usize, const NV: usize>(
                 }
             }
         }
+    }
+    if tree.has_reversed {
+        reverse_matrix(tree, &mut matrix);
     }
     matrix
 }

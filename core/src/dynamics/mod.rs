@@ -21,6 +21,7 @@ mod joint_block;
 mod joint_motion;
 mod joint_poses;
 mod mass_matrix;
+mod reversed;
 
 pub use fault::DynamicsFault;
 pub use forward_dynamics::forward_dynamics;

@@ -35,6 +35,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Tree<T, N, NQ, N
             },
             _ => Vector3::zeros(),
         };
+        let axis = if node.is_reversed { -axis } else { axis };
         Some(BodyShape {
             mass: node.inertia.mass,
             inertia: rotation.tr_mul(&(central * rotation)),

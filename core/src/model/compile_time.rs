@@ -54,13 +54,28 @@ pub(crate) const fn square_root(x: f64) -> f64 {
     root
 }
 
-pub(super) const fn normalized(v: V) -> V {
-    let squared = dot(v, v);
-    assert!(
-        squared > 0.0 && squared.is_finite(),
-        "a joint axis needs a length: it is zero or not finite"
-    );
-    scale(v, 1.0 / square_root(squared))
+/// The unit vector along `v`, or `None` where `v` is zero or not finite.
+pub(super) const fn normalized(v: V) -> Option<V> {
+    if !is_finite(v) {
+        return None;
+    }
+    let [x, y, z] = [v[0].abs(), v[1].abs(), v[2].abs()];
+    let xy = if x > y { x } else { y };
+    let largest = if xy > z { xy } else { z };
+    if largest == 0.0 {
+        return None;
+    }
+    // Scaled, so that no square overflows or vanishes.
+    Some(unit([v[0] / largest, v[1] / largest, v[2] / largest]))
+}
+
+/// The same for a vector of moderate length.
+const fn unit(v: V) -> V {
+    scale(v, 1.0 / square_root(dot(v, v)))
+}
+
+pub(super) const fn is_finite(v: V) -> bool {
+    v[0].is_finite() && v[1].is_finite() && v[2].is_finite()
 }
 
 /// Sine by its Taylor series, for constants such as a tilt given in degrees.
@@ -83,19 +98,19 @@ pub(super) const fn cosine(x: f64) -> f64 {
     1.0 - 2.0 * s * s
 }
 
-pub(super) const fn matrix_of_quaternion(q: [f64; 4]) -> M {
+/// The rotation of a unit quaternion, scalar first; `None` where its squared norm is off by 1 in 10⁶.
+pub(super) const fn matrix_of_quaternion(q: [f64; 4]) -> Option<M> {
     let [s, x, y, z] = q;
     let norm = s * s + x * x + y * y + z * z;
-    assert!(
-        norm > 0.999_999 && norm < 1.000_001,
-        "a body's orientation must be a unit quaternion, scalar first"
-    );
+    if !(norm > 0.999_999 && norm < 1.000_001) {
+        return None;
+    }
     let f = 2.0 / norm;
-    [
+    Some([
         [1.0 - f * (y * y + z * z), f * (x * y - s * z), f * (x * z + s * y)],
         [f * (x * y + s * z), 1.0 - f * (x * x + z * z), f * (y * z - s * x)],
         [f * (x * z - s * y), f * (y * z + s * x), 1.0 - f * (x * x + y * y)],
-    ]
+    ])
 }
 
 /// A right-handed frame, as a matrix of columns, whose z axis is the unit vector `n`.
@@ -108,6 +123,6 @@ pub(super) const fn frame_with_z(n: V) -> M {
     } else {
         [0.0, 0.0, 1.0]
     };
-    let x = normalized(cross(helper, n));
+    let x = unit(cross(helper, n));
     transpose([x, cross(n, x), n])
 }

@@ -14,6 +14,10 @@ use nalgebra::{Matrix3, Vector3};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Node<T> {
     pub kind: JointKind,
+    /// Whether the joint's axis points against its frame's, so that the user's coordinate, rate and
+    /// torque are the negative of those in this frame. The public functions turn them round on their
+    /// way in and out; the recursions know nothing of it.
+    pub is_reversed: bool,
     /// Index of the inboard node; `None` for the inertial frame.
     pub inboard: Option<usize>,
     /// First coordinate and first velocity of the joint.
@@ -72,6 +76,7 @@ impl<T: crate::Real> Node<T> {
 /// What an array of nodes holds before it is filled.
 pub(super) const EMPTY: Node<f64> = Node {
     kind: JointKind::Fixed,
+    is_reversed: false,
     inboard: None,
     position_start: 0,
     velocity_start: 0,

@@ -8,47 +8,52 @@ use nalgebra::{Matrix3, Vector3};
 impl<const N: usize, const NQ: usize, const NV: usize> Tree<f64, N, NQ, NV> {
     /// The same tree in single precision, every number rounded to the nearest.
     pub const fn to_f32(&self) -> Tree<f32, N, NQ, NV> {
-        let mut nodes = [node(&EMPTY); N];
+        let mut nodes = [EMPTY.rounded(); N];
         let mut k = 0;
         while k < N {
-            nodes[k] = node(&self.nodes[k]);
+            nodes[k] = self.nodes[k].rounded();
             k += 1;
         }
-        Tree { nodes, gravity: vector(&self.gravity) }
+        Tree { nodes, has_reversed: self.has_reversed, gravity: vector_to_f32(&self.gravity) }
     }
 }
 
-const fn node(node: &Node<f64>) -> Node<f32> {
-    Node {
-        kind: node.kind,
-        inboard: node.inboard,
-        position_start: node.position_start,
-        velocity_start: node.velocity_start,
-        offset: vector(&node.offset),
-        is_offset: node.is_offset,
-        home_rotation: match &node.home_rotation {
-            Some(m) => Some(matrix(m)),
-            None => None,
-        },
-        inertia: RigidInertia {
-            mass: node.inertia.mass as f32,
-            first_moment: vector(&node.inertia.first_moment),
-            rotational: SymmetricMatrix3 {
-                diagonal: vector(&node.inertia.rotational.diagonal),
-                off_diagonal: vector(&node.inertia.rotational.off_diagonal),
+impl Node<f64> {
+    /// Every number rounded to the nearest.
+    pub(crate) const fn rounded(&self) -> Node<f32> {
+        Node {
+            kind: self.kind,
+            is_reversed: self.is_reversed,
+            inboard: self.inboard,
+            position_start: self.position_start,
+            velocity_start: self.velocity_start,
+            offset: vector_to_f32(&self.offset),
+            is_offset: self.is_offset,
+            home_rotation: match &self.home_rotation {
+                Some(m) => Some(matrix(m)),
+                None => None,
             },
-        },
-        is_eccentric: node.is_eccentric,
-        shape: node.shape,
-        center: vector(&node.center),
-        body_rotation: match &node.body_rotation {
-            Some(m) => Some(matrix(m)),
-            None => None,
-        },
+            inertia: RigidInertia {
+                mass: self.inertia.mass as f32,
+                first_moment: vector_to_f32(&self.inertia.first_moment),
+                rotational: SymmetricMatrix3 {
+                    diagonal: vector_to_f32(&self.inertia.rotational.diagonal),
+                    off_diagonal: vector_to_f32(&self.inertia.rotational.off_diagonal),
+                },
+            },
+            is_eccentric: self.is_eccentric,
+            shape: self.shape,
+            center: vector_to_f32(&self.center),
+            body_rotation: match &self.body_rotation {
+                Some(m) => Some(matrix(m)),
+                None => None,
+            },
+        }
     }
 }
 
-const fn vector(v: &Vector3<f64>) -> Vector3<f32> {
+/// Every number rounded to the nearest.
+pub(crate) const fn vector_to_f32(v: &Vector3<f64>) -> Vector3<f32> {
     let [x, y, z] = v.data.0[0];
     Vector3::new(x as f32, y as f32, z as f32)
 }

@@ -1,12 +1,13 @@
 //! Trees of bodies: the constants that every algorithm reads.
 
+use super::body_check::check_body;
 use super::compile_time::{
-    IDENTITY, M, V, frame_with_z, matrix_of_quaternion, minus, normalized, product, times,
-    transpose,
+    IDENTITY, M, V, dot, frame_with_z, is_finite, matrix_of_quaternion, minus, normalized, product,
+    times, transpose,
 };
 use super::link::Connection;
 use super::node::EMPTY;
-use super::{Axis, InertiaShape, JointKind, Link, Node};
+use super::{Axis, InertiaShape, JointKind, Link, LinkFault, Node, TreeFault};
 use crate::spatial::{RigidInertia, SymmetricMatrix3};
 use nalgebra::{Matrix3, Vector3};
 
@@ -49,6 +50,8 @@ use nalgebra::{Matrix3, Vector3};
 #[derive(Clone, Copy, Debug)]
 pub struct Tree<T, const N: usize, const NQ: usize, const NV: usize> {
     pub(crate) nodes: [Node<T>; N],
+    /// Whether some joint's coordinate counts against its frame's axis.
+    pub(crate) has_reversed: bool,
     pub(crate) gravity: Vector3<T>,
 }
 
@@ -59,60 +62,89 @@ impl<const N: usize, const NQ: usize, const NV: usize> Tree<f64, N, NQ, NV> {
     /// Builds a tree from its links, inboard ones first. Gravity is 9.81 m/s² along −z.
     ///
     /// # Panics
-    /// At compile time, when used in a `const`, where a link hangs from itself or a later link, where
-    /// `NQ` or `NV` is not the sum over the joints, where an axis has no length, a quaternion no unit
-    /// norm, an inertia is none that a body can have, or a leaf has no mass.
+    /// At compile time, when used in a `const`, where [`Tree::try_new`] gives a fault. For links that
+    /// are known only when the program runs, use that one.
     pub const fn new(links: [Link; N]) -> Self {
-        assert!(N > 0, "a tree has at least one body");
-        let mut frames = [IDENTITY; N];
-        let mut origins = [[0.0; 3]; N];
+        match Self::try_new(links) {
+            Ok(tree) => tree,
+            Err(fault) => panic!("{}", fault.message()),
+        }
+    }
+
+    /// The same for links from a file or a program: what is wrong comes back as a value.
+    ///
+    /// # Errors
+    /// A [`TreeFault`] with the index of the first link that is wrong and the reason: it hangs from
+    /// itself or a later link, a number is not finite, an axis has no length, a quaternion no unit
+    /// norm, an inertia is none that a body can have, or it ends a branch and has no mass; or `NQ` or
+    /// `NV` is not the sum over the joints.
+    ///
+    /// # Accuracy
+    /// Everything is computed in f64. An axis that is within 8 units of the last place of one of the
+    /// inboard frame's (1.8·10⁻¹⁵ rad) is taken for it; any other keeps its direction.
+    ///
+    /// ```
+    /// use surefoot::model::{Link, LinkFault, Tree, TreeFault};
+    /// let link = Link::revolute(0, [0.0, 0.0, 1.0], [0.0; 3]).body(1.0, [0.1, 0.1, 0.3], [0.0; 3]);
+    /// let fault = Tree::<f64, 1, 1, 1>::try_new([link]).expect_err("no body");
+    /// assert_eq!(fault, TreeFault::Link { index: 0, reason: LinkFault::Moments });
+    /// ```
+    pub const fn try_new(links: [Link; N]) -> Result<Self, TreeFault> {
+        if N == 0 {
+            return Err(TreeFault::Empty);
+        }
+        let mut homes = [Home { axes: IDENTITY, origin: [0.0; 3] }; N];
         let mut is_leaf = [true; N];
         let mut positions = 0;
         let mut velocities = 0;
+        let mut has_reversed = false;
         let mut nodes = [EMPTY; N];
         let mut k = 0;
         while k < N {
             let link = &links[k];
-            assert!(
-                link.inboard <= k,
-                "a link's inboard link comes before it (0 is the inertial frame, 1 the first link)"
-            );
-            let (inboard, inboard_frame, inboard_origin) = if link.inboard == 0 {
-                (None, IDENTITY, [0.0; 3])
+            if link.inboard > k {
+                return Err(TreeFault::Link { index: k, reason: LinkFault::Inboard });
+            }
+            let (inboard, from) = if link.inboard == 0 {
+                (None, Home { axes: IDENTITY, origin: [0.0; 3] })
             } else {
                 is_leaf[link.inboard - 1] = false;
-                (Some(link.inboard - 1), frames[link.inboard - 1], origins[link.inboard - 1])
+                (Some(link.inboard - 1), homes[link.inboard - 1])
             };
-            let body_frame = matrix_of_quaternion(link.orientation);
-            check_inertia(link.mass, link.inertia);
-
-            let (kind, frame, origin) = joint_frame(link, inboard_frame, body_frame);
-            frames[k] = frame;
-            origins[k] = origin;
-            nodes[k] = node(link, kind, inboard, inboard_frame, inboard_origin, frame, origin);
+            match node(link, inboard, from) {
+                Ok((node, home)) => {
+                    nodes[k] = node;
+                    homes[k] = home;
+                }
+                Err(reason) => return Err(TreeFault::Link { index: k, reason }),
+            }
             nodes[k].position_start = positions;
             nodes[k].velocity_start = velocities;
-            positions += kind.coordinates();
-            velocities += kind.degrees_of_freedom();
+            has_reversed = has_reversed || nodes[k].is_reversed;
+            positions += nodes[k].kind.coordinates();
+            velocities += nodes[k].kind.degrees_of_freedom();
             k += 1;
         }
-        assert!(positions == NQ, "NQ is not the number of joint coordinates of these links");
-        assert!(velocities == NV, "NV is not the number of joint velocities of these links");
         let mut k = 0;
         while k < N {
-            assert!(
-                !is_leaf[k] || links[k].mass > 0.0,
-                "the last link of a branch needs a mass, or its joint can have no acceleration"
-            );
+            if is_leaf[k] && links[k].mass == 0.0 {
+                return Err(TreeFault::Link { index: k, reason: LinkFault::LeafWithoutMass });
+            }
             k += 1;
         }
-        Self { nodes, gravity: Vector3::new(0.0, 0.0, -GRAVITY) }
+        if positions != NQ {
+            return Err(TreeFault::Coordinates { given: NQ, needed: positions });
+        }
+        if velocities != NV {
+            return Err(TreeFault::Velocities { given: NV, needed: velocities });
+        }
+        Ok(Self { nodes, has_reversed, gravity: Vector3::new(0.0, 0.0, -GRAVITY) })
     }
 
     /// The same tree under another gravity (m/s², inertial frame).
     pub const fn with_gravity(self, gravity: [f64; 3]) -> Self {
         let [x, y, z] = gravity;
-        Self { nodes: self.nodes, gravity: Vector3::new(x, y, z) }
+        Self { gravity: Vector3::new(x, y, z), ..self }
     }
 }
 
@@ -148,64 +180,109 @@ impl<T: crate::Real, const N: usize, const NQ: usize, const NV: usize> Tree<T, N
     }
 }
 
-/// Kind, axes at home (columns) and origin at home of a link's joint frame.
-const fn joint_frame(link: &Link, inboard_frame: M, body_frame: M) -> (JointKind, M, V) {
-    match link.connection {
+/// A joint frame at home, in the describing frame.
+#[derive(Clone, Copy)]
+struct Home {
+    /// Columns.
+    axes: M,
+    origin: V,
+}
+
+/// What a link's connection makes of its joint.
+struct Joint {
+    kind: JointKind,
+    /// Whether the coordinate counts against the frame's axis.
+    is_reversed: bool,
+    home: Home,
+}
+
+const fn joint(link: &Link, inboard_axes: M, body_axes: M) -> Result<Joint, LinkFault> {
+    let (kind, axes, origin) = match link.connection {
         // At the centre of mass: a body fixed to its inboard one has no joint of its own.
-        Connection::Fixed => (JointKind::Fixed, inboard_frame, link.center),
+        Connection::Fixed => (JointKind::Fixed, inboard_axes, link.center),
         Connection::Revolute { axis, point } => {
-            let (axis, frame) = aligned_frame(axis, inboard_frame);
-            (JointKind::Revolute(axis), frame, point)
+            let Some((axis, is_reversed, axes)) = aligned_frame(axis, inboard_axes) else {
+                return Err(LinkFault::Axis);
+            };
+            let home = Home { axes, origin: point };
+            return Ok(Joint { kind: JointKind::Revolute(axis), is_reversed, home });
         }
         Connection::Prismatic { axis } => {
-            let (axis, frame) = aligned_frame(axis, inboard_frame);
-            (JointKind::Prismatic(axis), frame, link.center)
+            let Some((axis, is_reversed, axes)) = aligned_frame(axis, inboard_axes) else {
+                return Err(LinkFault::Axis);
+            };
+            let home = Home { axes, origin: link.center };
+            return Ok(Joint { kind: JointKind::Prismatic(axis), is_reversed, home });
         }
         Connection::Spherical { point } => (JointKind::Spherical, IDENTITY, point),
-        Connection::Floating => (JointKind::Floating, body_frame, link.center),
-        Connection::General { point, joint } => (JointKind::General(joint), IDENTITY, point),
-    }
+        Connection::Floating => (JointKind::Floating, body_axes, link.center),
+        Connection::General { point, joint } => {
+            let (d, e) = (joint.degrees_of_freedom, joint.coordinates);
+            if !(1 <= d && d <= 6 && d <= e && e <= 7) {
+                return Err(LinkFault::GeneralJoint);
+            }
+            (JointKind::General(joint), IDENTITY, point)
+        }
+    };
+    Ok(Joint { kind, is_reversed: false, home: Home { axes, origin } })
 }
 
-/// A joint frame with a coordinate axis along `axis`: parallel to the inboard frame where one of that
-/// frame's axes points along it, so that the joint's rotation is a turn about it and nothing more.
-const fn aligned_frame(axis: V, inboard_frame: M) -> (Axis, M) {
-    let direction = normalized(axis);
-    let seen = times(transpose(inboard_frame), direction);
-    let close = 1.0 - 1e-14;
-    if seen[0] > close {
-        (Axis::X, inboard_frame)
-    } else if seen[1] > close {
-        (Axis::Y, inboard_frame)
-    } else if seen[2] > close {
-        (Axis::Z, inboard_frame)
-    } else {
-        (Axis::Z, frame_with_z(direction))
-    }
+/// How far numbers of order 1 that ought to be 0 or 1 may be off after a few operations in f64.
+const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
+
+/// A joint frame with a coordinate axis along `axis`, and whether `axis` points against it: parallel
+/// to the inboard frame where `axis` lies along one of that frame's axes, so that the joint's rotation
+/// is a turn about it and nothing more. `None` where `axis` has no direction.
+const fn aligned_frame(axis: V, inboard_axes: M) -> Option<(Axis, bool, M)> {
+    let Some(direction) = normalized(axis) else { return None };
+    let [x, y, z] = times(transpose(inboard_axes), direction);
+    // How oblique an axis is shows in the other two components: its own is 1 to second order.
+    let is_zero = [x.abs() <= ROUND_OFF, y.abs() <= ROUND_OFF, z.abs() <= ROUND_OFF];
+    Some(match is_zero {
+        [false, true, true] => (Axis::X, x < 0.0, inboard_axes),
+        [true, false, true] => (Axis::Y, y < 0.0, inboard_axes),
+        [true, true, false] => (Axis::Z, z < 0.0, inboard_axes),
+        _ => (Axis::Z, false, frame_with_z(direction)),
+    })
 }
 
+/// A link's node (but for where its coordinates start), and its joint frame at home.
 const fn node(
     link: &Link,
-    kind: JointKind,
     inboard: Option<usize>,
-    inboard_frame: M,
-    inboard_origin: V,
-    frame: M,
-    origin: V,
-) -> Node<f64> {
+    from: Home,
+) -> Result<(Node<f64>, Home), LinkFault> {
+    let Some(body_axes) = matrix_of_quaternion(link.orientation) else {
+        return Err(LinkFault::Orientation);
+    };
+    if !is_finite(link.center) {
+        return Err(LinkFault::Center);
+    }
+    let Joint { kind, is_reversed, home } = match joint(link, from.axes, body_axes) {
+        Ok(joint) => joint,
+        Err(fault) => return Err(fault),
+    };
+    if !is_finite(home.origin) {
+        return Err(LinkFault::Point);
+    }
     // A floating joint's coordinates are the pose itself: there is no offset and no home rotation.
     let floating = matches!(kind, JointKind::Floating);
     // The inboard frame of a floating link that hangs from a body would be that body's joint frame.
-    assert!(
-        !floating || inboard.is_none(),
-        "a floating joint carries a body relative to the inertial frame: its inboard link is 0"
-    );
-    let to_inboard = transpose(inboard_frame);
-    let offset = if floating { [0.0; 3] } else { times(to_inboard, minus(origin, inboard_origin)) };
-    let home_rotation = if floating { IDENTITY } else { product(to_inboard, frame) };
-    let to_frame = transpose(frame);
-    let body_rotation = product(to_frame, matrix_of_quaternion(link.orientation));
-    let center = times(to_frame, minus(link.center, origin));
+    if floating && inboard.is_some() {
+        return Err(LinkFault::FloatingInboard);
+    }
+    let to_inboard = transpose(from.axes);
+    let offset =
+        if floating { [0.0; 3] } else { times(to_inboard, minus(home.origin, from.origin)) };
+    let home_rotation = if floating { IDENTITY } else { product(to_inboard, home.axes) };
+    let to_frame = transpose(home.axes);
+    let body_rotation = product(to_frame, body_axes);
+    let center = times(to_frame, minus(link.center, home.origin));
+    if let Err(fault) =
+        check_body(link.mass, link.inertia, dot(center, center) + dot(offset, offset))
+    {
+        return Err(fault);
+    }
 
     // Inertia about the centre of mass in the joint frame's axes, R I Rᵀ, then about the origin.
     let [xx, yy, zz, yz, zx, xy] = link.inertia;
@@ -213,6 +290,14 @@ const fn node(
     let c = product(product(body_rotation, central), transpose(body_rotation));
     let [x, y, z] = center;
     let m = link.mass;
+    let diagonal = [
+        c[0][0] + m * (y * y + z * z),
+        c[1][1] + m * (z * z + x * x),
+        c[2][2] + m * (x * x + y * y),
+    ];
+    if !(is_finite(diagonal) && is_finite(offset)) {
+        return Err(LinkFault::Center);
+    }
     let products = [c[1][2] - m * y * z, c[2][0] - m * z * x, c[0][1] - m * x * y];
     let shape = if !is_zero(products) {
         InertiaShape::Full
@@ -221,8 +306,9 @@ const fn node(
     } else {
         InertiaShape::Diagonal
     };
-    Node {
+    let node = Node {
         kind,
+        is_reversed,
         inboard,
         position_start: 0,
         velocity_start: 0,
@@ -233,11 +319,7 @@ const fn node(
             mass: m,
             first_moment: Vector3::new(m * x, m * y, m * z),
             rotational: SymmetricMatrix3 {
-                diagonal: Vector3::new(
-                    c[0][0] + m * (y * y + z * z),
-                    c[1][1] + m * (z * z + x * x),
-                    c[2][2] + m * (x * x + y * y),
-                ),
+                diagonal: vector(diagonal),
                 off_diagonal: vector(products),
             },
         },
@@ -245,38 +327,8 @@ const fn node(
         shape,
         center: vector(center),
         body_rotation: matrix_unless_identity(body_rotation),
-    }
-}
-
-/// Refuses what no body can have. A body without mass and inertia is allowed inside a branch.
-const fn check_inertia(mass: f64, inertia: [f64; 6]) {
-    assert!(mass >= 0.0 && mass.is_finite(), "a mass is finite and not negative");
-    let [xx, yy, zz, yz, zx, xy] = inertia;
-    let sum = xx + yy + zz;
-    assert!(
-        sum.is_finite() && yz.is_finite() && zx.is_finite() && xy.is_finite(),
-        "an inertia is finite"
-    );
-    if mass == 0.0 && sum == 0.0 {
-        return;
-    }
-    // The second moments of the mass, ½ tr(I) 1 − I, form a positive semi-definite matrix
-    // (equivalently, principal inertias obey the triangle inequality). Its minors, with a margin for
-    // the rounding of printed data:
-    let (a, b, c) = (0.5 * sum - xx, 0.5 * sum - yy, 0.5 * sum - zz);
-    let slack = 1e-9 * sum;
-    assert!(
-        xx >= 0.0 && yy >= 0.0 && zz >= 0.0 && a >= -slack && b >= -slack && c >= -slack,
-        "no body has this inertia: one principal moment exceeds the sum of the other two"
-    );
-    let determinant = a * (b * c - yz * yz) - xy * (xy * c + yz * zx) - zx * (xy * yz + b * zx);
-    assert!(
-        a * b - xy * xy >= -slack * sum
-            && b * c - yz * yz >= -slack * sum
-            && c * a - zx * zx >= -slack * sum
-            && determinant >= -slack * sum * sum,
-        "no body has this inertia: its products are too large for its moments"
-    );
+    };
+    Ok((node, home))
 }
 
 const fn is_zero(v: V) -> bool {
@@ -289,13 +341,13 @@ const fn vector(v: V) -> Vector3<f64> {
 
 const fn matrix_unless_identity(m: M) -> Option<Matrix3<f64>> {
     let mut i = 0;
-    let mut difference = 0.0;
+    let mut is_identity = true;
     while i < 9 {
-        difference += (m[i / 3][i % 3] - IDENTITY[i / 3][i % 3]).abs();
+        let difference = m[i / 3][i % 3] - IDENTITY[i / 3][i % 3];
+        is_identity = is_identity && difference.abs() <= ROUND_OFF;
         i += 1;
     }
-    // Products of exact rotations leave round-off behind.
-    if difference < 1e-14 {
+    if is_identity {
         return None;
     }
     Some(Matrix3::new(

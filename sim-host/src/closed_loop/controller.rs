@@ -14,7 +14,7 @@ use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, SymmetricMatrix3, Twist, Wrench};
 
 static ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
-static ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32(&biped::TREE_F32);
+static ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32();
 
 /// Precision of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]

@@ -15,7 +15,7 @@ use surefoot::balance::{
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
 
-static ROBOT: LeggedRobot<f32, 2> = LeggedRobot::new(&biped::TREE).to_f32(&biped::TREE_F32);
+static ROBOT: LeggedRobot<f32, 2> = LeggedRobot::new(&biped::TREE).to_f32();
 
 /// One tick in single precision of a controller of whose robot, gains, form, limits, state and
 /// reference the optimiser knows nothing but the types.

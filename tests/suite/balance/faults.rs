@@ -11,7 +11,7 @@ use surefoot::spatial::{Quaternion, Twist};
 use surefoot_tests::random_trees::{random, symmetric};
 
 const ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
-const ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32(&biped::TREE_F32);
+const ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32();
 
 fn standing<T: Real>() -> (RobotState<T, 2>, Reference<T>) {
     let leg = [0.0, 0.5, 0.0, -1.0, 0.0, 0.5].map(T::of);

@@ -11,7 +11,7 @@ use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
 
 static ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
-static ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32(&biped::TREE_F32);
+static ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32();
 
 const PERIOD: f64 = 0.002;
 

@@ -13,7 +13,7 @@ use surefoot::spatial::{Quaternion, Twist};
 use surefoot_tests::vectors::{self, array, matrix, relative_error};
 
 const ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
-const ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32(&biped::TREE_F32);
+const ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32();
 
 /// Largest error of each result over the cases of the file.
 #[derive(Debug, Default)]

@@ -17,7 +17,7 @@ use surefoot_tests::quadruped;
 use surefoot_tests::random_trees::{random, symmetric};
 
 pub const BIPED: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
-const BIPED_F32: LeggedRobot<f32, 2> = BIPED.to_f32(&biped::TREE_F32);
+const BIPED_F32: LeggedRobot<f32, 2> = BIPED.to_f32();
 
 /// Bent knees, anything else at random; at rest.
 pub fn random_state<const LEGS: usize>(rng: &mut rand_pcg::Pcg64) -> RobotState<f64, LEGS> {

@@ -11,8 +11,7 @@ use surefoot_sim::closed_loop::{self, Commanded, ControlFailure, measured};
 use surefoot_sim::plant::PlantState;
 use surefoot_sim::scene::{Scene, Sensing, load};
 
-static ROBOT: LeggedRobot<f32, 2> =
-    LeggedRobot::<f64, 2>::new(&biped::TREE).to_f32(&biped::TREE_F32);
+static ROBOT: LeggedRobot<f32, 2> = LeggedRobot::<f64, 2>::new(&biped::TREE).to_f32();
 
 /// What runs on the target, in the target's precision.
 struct Supervised {
