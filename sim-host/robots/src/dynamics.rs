@@ -1,20 +1,24 @@
 //! Kinematics and dynamics of a robot at the states of a file.
 
+mod columns;
 mod convention;
+mod evaluate;
 mod sized;
 mod states;
 
 pub use convention::Convention;
+pub use evaluate::evaluate_file;
 pub use sized::Precision;
-pub use states::{FramePose, JointEntry, Results, State, StateResult, evaluate_file};
+pub use states::{FramePose, JointEntry, Results, State, StateResult};
 
-use crate::error::ImportError;
+use crate::error::{ImportError, Refusal};
 use crate::robot::Robot;
 use crate::tree;
 use convention::JointMap;
 use nalgebra::{DMatrix, DVector, Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
-use sized::{Evaluate, Size, TreeState};
+use sized::{Evaluate, NoTree, Size, TreeState};
 use surefoot::dynamics::DynamicsFault;
+use surefoot::model::TreeFault;
 
 /// Why a state has no dynamics.
 #[derive(Debug, thiserror::Error)]
@@ -86,14 +90,32 @@ pub(crate) struct JointSlices<'s> {
 
 impl<'a> Dynamics<'a> {
     /// # Errors
-    /// The robot has more joints than the algorithms are compiled for.
+    /// The robot has more joints than the algorithms are compiled for, or a link that core refuses.
     pub fn new(robot: &'a Robot, precision: Precision) -> Result<Self, ImportError> {
         let motions = || robot.links.iter().map(|link| link.joint.motion);
         let quaternions = motions().filter(|motion| !motion.has_axis()).count();
         let velocities = robot.degrees_of_freedom();
         let size = Size { links: robot.links.len(), velocities, quaternions };
         let links: Vec<_> = tree::home_links(robot).iter().map(|link| link.to_core()).collect();
-        let evaluate = sized::compile(&links, size, robot.gravity, precision)?;
+        let evaluate =
+            sized::compile(&links, size, robot.gravity, precision).map_err(|no_tree| {
+                let (subject, refusal) = match no_tree {
+                    NoTree::TooLarge => {
+                        let (degrees_of_freedom, most) = (size.velocities, sized::MOST);
+                        ("robot".into(), Refusal::TooLarge { degrees_of_freedom, most })
+                    }
+                    NoTree::Fault(TreeFault::Link { index, reason })
+                        if index < robot.links.len() =>
+                    {
+                        let reason = reason.message().to_owned();
+                        (format!("link {}", robot.links[index].name), Refusal::Tree { reason })
+                    }
+                    NoTree::Fault(fault) => {
+                        ("robot".into(), Refusal::Tree { reason: fault.to_string() })
+                    }
+                };
+                ImportError::refused(None, subject, refusal)
+            })?;
         Ok(Self { robot, home: robot.home_poses(), evaluate })
     }
 

@@ -105,6 +105,12 @@ pub enum Refusal {
         /// kg m² or kg.
         inertia: f64,
     },
+    /// Core refuses the tree.
+    #[error("{reason}")]
+    Tree {
+        /// Why.
+        reason: String,
+    },
     /// Every link is fixed to the world.
     #[error("no link of it moves")]
     NothingMoves,

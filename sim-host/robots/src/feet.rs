@@ -1,6 +1,6 @@
 //! Where the feet touch the floor: stated soles, or points of collision shapes.
 
-use crate::description::{Description, Shape, ShapeKind};
+use crate::description::{DescribedFoot, Description, Shape, ShapeKind};
 use crate::error::{ImportError, Refusal};
 use crate::hull;
 use crate::mesh;
@@ -30,26 +30,26 @@ pub(crate) fn feet(
         }
     }
     if names.is_empty() {
-        return described_feet(description, placements);
+        let all = description.feet.iter();
+        return all.map(|foot| described_foot(description, placements, foot)).collect();
     }
     names.into_iter().map(|name| foot(description, placements, &home, options, name)).collect()
 }
 
-/// The feet that the file has.
-fn described_feet(
+/// A foot that the file has, in the link that it is part of now.
+fn described_foot(
     description: &Description,
     placements: &[Placement],
-) -> Result<Vec<Foot>, ImportError> {
-    let feet = description.feet.iter().map(|foot| {
-        let Placement { link, pose } = &placements[foot.link];
-        let Some(link) = *link else {
-            let refusal = Refusal::NoSole { reason: "it is fixed to the world".into() };
-            return Err(ImportError::refused(None, format!("foot {}", foot.name), refusal));
-        };
-        let moved = |p: &Vector3<f64>| pose.transform_point(&(*p).into()).coords;
-        Ok(Foot { name: foot.name.clone(), link, points: foot.points.iter().map(moved).collect() })
-    });
-    feet.collect()
+    foot: &DescribedFoot,
+) -> Result<Foot, ImportError> {
+    let Placement { link, pose } = &placements[foot.link];
+    let Some(link) = *link else {
+        let refusal = Refusal::NoSole { reason: "it is fixed to the world".into() };
+        let place = &description.links[foot.link].place;
+        return Err(ImportError::refused(Some(place), format!("foot {}", foot.name), refusal));
+    };
+    let moved = |p: &Vector3<f64>| pose.transform_point(&(*p).into()).coords;
+    Ok(Foot { name: foot.name.clone(), link, points: foot.points.iter().map(moved).collect() })
 }
 
 /// The file has no link of this name.
@@ -82,6 +82,9 @@ fn foot(
         let corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
         let points = corners.map(|[x, y]| pose.transform_point(&Point3::new(x, y, z)).coords);
         return Ok(Foot { name: name.into(), link, points: points.to_vec() });
+    }
+    if let Some(described) = description.feet.iter().find(|described| described.name == name) {
+        return described_foot(description, placements, described);
     }
     let world = home[link] * pose;
     let points = sole(&described.shapes, &world).map_err(refuse)?;

@@ -58,15 +58,15 @@ impl Inertial {
 /// What of a body's inertia no distribution of mass can have, if anything.
 ///
 /// The principal moments `a ≤ b ≤ c` of a body obey `0 ≤ a` and `c ≤ a + b`; `slack`, a part of `a + b + c`,
-/// is left for the rounding of printed numbers.
-pub(crate) fn violated_inequality(body: &Inertial, slack: f64) -> Option<String> {
+/// is left for the rounding of printed numbers, `shift` (kg m²) for what shifting them leaves behind.
+pub(crate) fn violated_inequality(body: &Inertial, slack: f64, shift: f64) -> Option<String> {
     if body.mass == 0.0 && body.inertia != Matrix3::zeros() {
         return Some("an inertia needs a mass, and the mass is 0".into());
     }
     let mut moments = body.inertia.symmetric_eigenvalues();
     moments.as_mut_slice().sort_by(f64::total_cmp);
     let [a, b, c] = moments.into();
-    let slack = slack * body.inertia.diagonal().abs().sum();
+    let slack = slack * body.inertia.diagonal().abs().sum() + shift;
     if !(a >= -slack) {
         Some(format!(
             "principal moments {a:.4e}, {b:.4e}, {c:.4e} kg m², and {a:.4e} ≥ 0 does not hold"

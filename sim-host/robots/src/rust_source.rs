@@ -1,5 +1,6 @@
 //! `robot.rs`: a robot as constant data for firmware, in flash.
 
+use crate::dynamics::{Dynamics, Precision};
 use crate::error::{ImportError, Refusal};
 use crate::robot::{Robot, RobotLink, RobotMotion};
 use crate::tree::{components, home_links};
@@ -12,7 +13,7 @@ const LEG: usize = 6;
 /// controller takes the robot. It needs `surefoot` and nothing else.
 ///
 /// # Errors
-/// A joint follows another: a tree has independent joints.
+/// A joint follows another, as a tree has independent joints; or core refuses a link.
 pub fn robot_rs(robot: &Robot) -> Result<String, ImportError> {
     for link in &robot.links {
         if let Some(coupling) = link.joint.follows {
@@ -24,6 +25,8 @@ pub fn robot_rs(robot: &Robot) -> Result<String, ImportError> {
             return Err(ImportError::refused(None, subject, refusal));
         }
     }
+    // What core refuses here would not compile there.
+    Dynamics::new(robot, Precision::F64)?;
     let mut out = String::new();
     // Writing to a string does not fail.
     let _ = write(robot, &mut out);
@@ -40,13 +43,18 @@ pub fn legs(robot: &Robot) -> Option<usize> {
             let turns =
                 matches!(link.joint.motion, RobotMotion::Revolute | RobotMotion::Continuous);
             turns && link.parent == Some(inboard)
-        })
+        }) && reaches(links)
     };
     let legged = central.joint.motion == RobotMotion::Floating
         && !rest.is_empty()
         && rest.len() % LEG == 0
         && rest.chunks(LEG).enumerate().all(is_leg);
     legged.then_some(rest.len() / LEG)
+}
+
+/// Whether a leg's joints are apart: one whose joints all lie in one point cannot stand.
+fn reaches(leg: &[RobotLink]) -> bool {
+    leg.iter().skip(1).any(|link| link.joint.origin.translation.vector.norm() > 1e-6)
 }
 
 fn write(robot: &Robot, out: &mut String) -> std::fmt::Result {
@@ -82,10 +90,7 @@ fn write(robot: &Robot, out: &mut String) -> std::fmt::Result {
         writeln!(out, "/// As the balance controller takes it.")?;
         writeln!(out, "pub const LEGGED: LeggedRobot<f64, {legs}> = LeggedRobot::new(&TREE);\n")?;
         writeln!(out, "/// The same in single precision.")?;
-        writeln!(
-            out,
-            "pub const LEGGED_F32: LeggedRobot<f32, {legs}> = LEGGED.to_f32(&TREE_F32);\n"
-        )?;
+        writeln!(out, "pub const LEGGED_F32: LeggedRobot<f32, {legs}> = LEGGED.to_f32();\n")?;
     }
     names(robot, out)?;
     limits(robot, out)?;

@@ -2,7 +2,7 @@
 
 use crate::error::{ImportError, Place};
 use std::cell::Cell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -43,10 +43,58 @@ pub(crate) struct Attribute {
 pub(crate) fn read(path: &Path) -> Result<Element, ImportError> {
     let file: Arc<str> = path.display().to_string().into();
     let text = read_text(path)?;
+    match parse(&file, &text) {
+        Err(roxmltree::Error::UnknownNamespace(..)) => {
+            let declared = with_prefixes(&text);
+            parse(&file, &declared).map_err(|error| not_xml(&file, &error))?
+        }
+        other => other.map_err(|error| not_xml(&file, &error))?,
+    }
+}
+
+/// The tree, or an error of what does not belong into it; or it is not XML.
+fn parse(file: &Arc<str>, text: &str) -> Result<Result<Element, ImportError>, roxmltree::Error> {
     let options = roxmltree::ParsingOptions { nodes_limit: MOST_NODES, ..Default::default() };
-    let document = roxmltree::Document::parse_with_options(&text, options)
-        .map_err(|error| malformed_xml(&file, error.pos().row, &error.to_string()))?;
-    convert(&file, &document, document.root_element(), 0)
+    let document = roxmltree::Document::parse_with_options(text, options)?;
+    Ok(convert(file, &document, document.root_element(), 0))
+}
+
+fn not_xml(file: &Arc<str>, error: &roxmltree::Error) -> ImportError {
+    malformed_xml(file, error.pos().row, &error.to_string())
+}
+
+/// The text with every prefix that it has declared in its root element. Files that a preprocessor has left
+/// behind have prefixes that nobody declares; what carries one is not read, and no reason to refuse the
+/// rest. Lines stay what they are.
+fn with_prefixes(text: &str) -> String {
+    let is_name = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
+    let mut prefixes = BTreeSet::new();
+    for (at, _) in text.match_indices(':') {
+        let before = &text[..at];
+        let start = before.rfind(|c| !is_name(c)).map_or(0, |i| i + 1);
+        let prefix = &before[start..];
+        let starts_name = prefix.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+        let after = text[at + 1..].starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+        let opens = before[..start].ends_with(['<', '/', ' ', '\n', '\t', '\r']);
+        if starts_name && after && opens && !["xml", "xmlns"].contains(&prefix) {
+            prefixes.insert(prefix);
+        }
+    }
+    let undeclared = prefixes.into_iter().filter(|p| !text.contains(&format!("xmlns:{p}")));
+    let declarations: String = undeclared.map(|p| format!(" xmlns:{p}=\"{p}\"")).collect();
+    // After the name of the first element, which no comment or declaration is.
+    let mut from = 0;
+    while let Some(open) = text[from..].find('<').map(|i| from + i) {
+        let rest = &text[open + 1..];
+        if rest.starts_with(is_name) {
+            let end = rest.find(|c| !is_name(c) && c != ':').map_or(text.len(), |i| open + 1 + i);
+            return format!("{}{declarations}{}", &text[..end], &text[end..]);
+        }
+        let close = if rest.starts_with("!--") { "-->" } else { ">" };
+        let Some(end) = rest.find(close) else { break };
+        from = open + 1 + end;
+    }
+    text.to_owned()
 }
 
 /// The text of a file of a bounded size.

@@ -2,6 +2,7 @@
 //! what, where and what was expected.
 
 mod charts;
+mod importing;
 mod mechanisms;
 mod program;
 mod reproduced;

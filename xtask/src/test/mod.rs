@@ -6,6 +6,7 @@ mod doc_tests;
 mod firmware;
 mod panic_free;
 mod record;
+mod robots;
 mod target;
 mod tests;
 
@@ -34,6 +35,8 @@ enum Stage {
     DocTests,
     /// The report's page and its replay, in a browser.
     Browser,
+    /// Robots of other projects, from Python's package index: import, and dynamics against Pinocchio and MuJoCo.
+    Robots,
     /// Features that a scene does not have execute no instruction, on the host.
     Unused,
     /// Core compiles for the target.
@@ -48,7 +51,7 @@ enum Stage {
 
 impl Options {
     fn wants(&self, stage: Stage) -> bool {
-        let on_host = [Stage::Tests, Stage::DocTests, Stage::Browser, Stage::Unused];
+        let on_host = [Stage::Tests, Stage::DocTests, Stage::Browser, Stage::Robots, Stage::Unused];
         let needs_target = !on_host.contains(&stage);
         (self.only.is_empty() || self.only.contains(&stage)) && !(needs_target && self.skip_target)
     }
@@ -65,6 +68,9 @@ pub fn run(options: &Options) -> Result<()> {
     }
     if options.wants(Stage::Browser) {
         record.stage("browser", browser::run);
+    }
+    if options.wants(Stage::Robots) {
+        record.stage("robots", robots::run);
     }
     if options.wants(Stage::Unused) {
         record.stage("unused", crate::instructions::nothing_unused_runs);

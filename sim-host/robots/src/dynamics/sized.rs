@@ -4,13 +4,12 @@
 //! for a few sizes, and a robot takes the smallest that it fits: the rest is filled with bodies of their own
 //! on the world, at rest, which share no number with the robot's.
 
-use crate::error::{ImportError, Refusal};
 use nalgebra::DMatrix;
 use surefoot::Real;
 use surefoot::dynamics::{
     DynamicsFault, body_poses, forward_dynamics, inverse_dynamics, joint_poses, mass_matrix,
 };
-use surefoot::model::{Link, Tree};
+use surefoot::model::{Link, Tree, TreeFault};
 use surefoot::spatial::Pose;
 
 /// Of the arithmetic.
@@ -60,18 +59,18 @@ pub(super) const MOST: usize = 128;
 /// The algorithms for a tree of any size up to [`MOST`].
 ///
 /// # Errors
-/// It is larger.
+/// It is larger, or core refuses a link.
 pub(super) fn compile(
     links: &[Link],
     size: Size,
     gravity: [f64; 3],
     precision: Precision,
-) -> Result<Evaluate, ImportError> {
+) -> Result<Evaluate, NoTree> {
     // Bodies, coordinates, velocities; the difference is how many quaternions fit.
     macro_rules! smallest {
         ($(($n:literal, $nq:literal)),* $(,)?) => {
             $(if let Some(filled) = fill(links, size, $n, $nq - $n) {
-                return Ok(sized::<$n, $nq, $n>(&filled, size, gravity, precision));
+                return sized::<$n, $nq, $n>(&filled, size, gravity, precision);
             })*
         };
     }
@@ -86,8 +85,14 @@ pub(super) fn compile(
         (128, 129),
         (128, 136),
     );
-    let refusal = Refusal::TooLarge { degrees_of_freedom: size.velocities, most: MOST };
-    Err(ImportError::refused(None, "robot".into(), refusal))
+    Err(NoTree::TooLarge)
+}
+
+/// Why there is no tree.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum NoTree {
+    TooLarge,
+    Fault(TreeFault),
 }
 
 /// The links, and others so that there are `n` with `n` velocities and `quaternions` quaternions; `None`
@@ -109,16 +114,17 @@ fn sized<const N: usize, const NQ: usize, const NV: usize>(
     size: Size,
     gravity: [f64; 3],
     precision: Precision,
-) -> Evaluate {
-    let tree: Tree<f64, N, NQ, NV> =
-        Tree::new(std::array::from_fn(|i| links[i])).with_gravity(gravity);
-    match precision {
+) -> Result<Evaluate, NoTree> {
+    let tree: Tree<f64, N, NQ, NV> = Tree::try_new(std::array::from_fn(|i| links[i]))
+        .map_err(NoTree::Fault)?
+        .with_gravity(gravity);
+    Ok(match precision {
         Precision::F64 => Box::new(move |state| evaluate(&tree, size, state)),
         Precision::F32 => {
             let tree = tree.to_f32();
             Box::new(move |state| evaluate(&tree, size, state))
         }
-    }
+    })
 }
 
 fn evaluate<T: Real, const N: usize, const NQ: usize, const NV: usize>(

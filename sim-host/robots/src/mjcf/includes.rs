@@ -59,7 +59,7 @@ pub(super) fn refuse_unsupported(element: &Element) -> Result<(), ImportError> {
         if UNSUPPORTED.contains(&child.tag.as_str()) {
             let refusal = Refusal::Unsupported {
                 what: format!("<{}>", child.tag),
-                advice: "write its bodies out, as mj_saveLastXML does".into(),
+                advice: "have its bodies written out, as mj_saveLastXML does".into(),
             };
             return Err(ImportError::refused(Some(&child.place), child.describe(), refusal));
         }

@@ -1,13 +1,16 @@
 //! What is refused of a description: no tree, inertias that no body has, joints that move nothing.
 
 use crate::description::{DescribedKind, Description};
-use crate::error::{ImportError, Refusal};
+use crate::error::{ImportError, Place, Refusal};
 use crate::inertial::{Inertial, violated_inequality};
 use crate::robot::{Robot, RobotMotion};
 use nalgebra::Matrix3;
+use std::collections::HashMap;
 
-/// What printed numbers are rounded to, as a part of the sum of the principal moments.
+/// What printed numbers are rounded to, as a part of the sum of the principal moments, and what shifting
+/// leaves behind, as a part of mass and distance squared: core's margins.
 const INERTIA_SLACK: f64 = 1e-9;
+const SHIFT_SLACK: f64 = 1e-14;
 
 /// Inertia of a joint beside that of what it carries, below which it is rounding and nothing else.
 const NOTHING: f64 = 1e-12;
@@ -73,14 +76,14 @@ pub(super) fn inertias(
     notes: &mut Vec<String>,
 ) -> Result<(), ImportError> {
     for (parts, link) in parts.iter().zip(&robot.links) {
-        let own = parts
-            .iter()
-            .find_map(|(k, part)| Some((*k, violated_inequality(part, INERTIA_SLACK)?)));
-        if let Some(inequality) = violated_inequality(&link.inertial, INERTIA_SLACK) {
-            let culprit = own
-                .as_ref()
-                .or(None)
-                .map_or_else(|| parts.first().map(|(k, _)| *k), |(k, _)| Some(*k));
+        let violated = |part: &Inertial| {
+            let reach = (part.center - link.joint.point).norm_squared()
+                + link.joint.origin.translation.vector.norm_squared();
+            violated_inequality(part, INERTIA_SLACK, SHIFT_SLACK * part.mass * reach)
+        };
+        let own = parts.iter().find_map(|(k, part)| Some((*k, violated(part)?)));
+        if let Some(inequality) = violated(&link.inertial) {
+            let culprit = own.as_ref().map(|(k, _)| *k).or(parts.first().map(|(k, _)| *k));
             let culprit = culprit.map(|k| &description.links[k]);
             let subject = match culprit {
                 Some(culprit) if culprit.name != link.name => {
@@ -103,11 +106,12 @@ pub(super) fn inertias(
 
 /// Refuses joints that move no mass, which have no acceleration, and floating joints on moving links.
 pub(super) fn moves_something(description: &Description, robot: &Robot) -> Result<(), ImportError> {
+    let places: HashMap<&str, &Place> =
+        description.joints.iter().map(|joint| (joint.name.as_str(), &joint.place)).collect();
     let mut composite: Vec<Inertial> = robot.links.iter().map(|link| link.inertial).collect();
     for (k, link) in robot.links.iter().enumerate().rev() {
         let joint = &link.joint;
-        let described = description.joints.iter().find(|d| d.name == joint.name);
-        let place = described.map(|d| &d.place);
+        let place = places.get(joint.name.as_str()).copied();
         if joint.motion == RobotMotion::Floating && link.parent.is_some() {
             let refusal = Refusal::Unsupported {
                 what: "a floating joint on a link that moves".into(),
