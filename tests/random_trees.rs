@@ -112,10 +112,20 @@ pub fn floating(rng: &mut Pcg64) -> (Floating, [Body; N]) {
 
 /// A random tree on the ground.
 pub fn grounded(rng: &mut Pcg64) -> (Grounded, [Body; N]) {
+    grounded_with(rng, [0.0; N])
+}
+
+/// The same with rotor inertias on the joints that can have one.
+pub fn grounded_with(rng: &mut Pcg64, rotors: [f64; N]) -> (Grounded, [Body; N]) {
     use Kind::{Fixed, Prismatic, Revolute, Spherical, Universal};
     let mut kinds =
         [Revolute, Revolute, Revolute, Prismatic, Spherical, Spherical, Fixed, Universal];
-    let (links, bodies) = links(rng, false, &mut kinds);
+    let (mut links, bodies) = links(rng, false, &mut kinds);
+    for ((link, kind), rotor) in links.iter_mut().zip(kinds).zip(rotors) {
+        if matches!(kind, Revolute | Prismatic) {
+            *link = link.rotor_inertia(rotor);
+        }
+    }
     (Tree::new(links), bodies)
 }
 

@@ -12,6 +12,16 @@ pub fn controller() -> Value {
     parse(include_str!("vectors/controller_vectors.json"))
 }
 
+/// Foot wrenches within limits: states, and what the ground gives beside the joints' wrenches.
+pub fn foot_wrenches() -> Value {
+    parse(include_str!("vectors/wrench_qp_vectors.json"))
+}
+
+/// An arm with rotors, made by `vectors/rotor_vectors.py` with MuJoCo.
+pub fn rotors() -> Value {
+    parse(include_str!("vectors/rotor_vectors.json"))
+}
+
 fn parse(text: &str) -> Value {
     serde_json::from_str(text).expect("the vectors are valid JSON")
 }

@@ -56,8 +56,8 @@ pub struct Controller<'a, T, const LEGS: usize> {
     /// Smallest pivot of a leg's dimensionless Jacobian that is not yet a singular leg. Torques grow
     /// as its inverse; a straight knee has 0.
     pub singularity: T,
-    /// What a foot can do on its floor, checked before torques go out; `None` leaves the check out,
-    /// as the dissertation does.
+    /// What the ground can give a foot, checked before torques go out; `None` leaves the check out, as
+    /// the dissertation does.
     pub foot_limits: Option<FootLimits<T>>,
 }
 

@@ -83,47 +83,33 @@ pub fn leg_kinematics<T: Real, const LEGS: usize>(
     state: &RobotState<T, LEGS>,
 ) -> [LegKinematics<T>; LEGS] {
     let mut legs = [LegKinematics::empty(); LEGS];
-    walk_legs(robot, central, state, &mut legs);
+    walk_legs::<T, LEGS, true>(robot, central, state, &mut legs);
     legs
 }
 
-/// The same into a place that is there already: a copy costs a tenth of a tick.
+/// The same into a place that is there already: a copy costs a tenth of a tick. Without `REVERSED` for
+/// robots that have no reversed joint.
 #[inline(always)]
-pub(super) fn walk_legs<T: Real, const LEGS: usize>(
+pub(super) fn walk_legs<T: Real, const LEGS: usize, const REVERSED: bool>(
     robot: &LeggedRobot<T, LEGS>,
     central: &CentralBody<T>,
     state: &RobotState<T, LEGS>,
     legs: &mut [LegKinematics<T>; LEGS],
 ) {
-    if robot.has_reversed {
-        *legs = reversed_legs(robot, *central, state);
-        return;
-    }
     let joints = state.joint_angles.iter().zip(&state.joint_rates);
     for ((leg, links), (angles, rates)) in legs.iter_mut().zip(&robot.legs).zip(joints) {
-        walk(leg, links, central, angles, rates);
-    }
-}
-
-/// The same where some joint's axis points against its frame's: it is one along that axis whose
-/// angle counts backwards.
-#[cold]
-#[inline(never)]
-fn reversed_legs<T: Real, const LEGS: usize>(
-    robot: &LeggedRobot<T, LEGS>,
-    central: CentralBody<T>,
-    state: &RobotState<T, LEGS>,
-) -> [LegKinematics<T>; LEGS] {
-    let mut legs = [LegKinematics::empty(); LEGS];
-    let joints = state.joint_angles.iter().zip(&state.joint_rates);
-    for ((leg, links), (angles, rates)) in legs.iter_mut().zip(&robot.legs).zip(joints) {
+        if !REVERSED {
+            walk(leg, links, central, angles, rates);
+            continue;
+        }
+        // A joint whose axis points against its frame's is one along that axis whose angle counts
+        // backwards.
         let sense = |k: usize| if links[k].is_reversed { -T::one() } else { T::one() };
         let along = |all: &[T; LEG]| core::array::from_fn(|k| all[k] * sense(k));
-        walk(leg, links, &central, &along(angles), &along(rates));
+        walk(leg, links, central, &along(angles), &along(rates));
         leg.axes = core::array::from_fn(|k| leg.axes[k] * sense(k));
         leg.rates = *rates;
     }
-    legs
 }
 
 impl<T: Real> LegKinematics<T> {

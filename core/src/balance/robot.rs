@@ -33,6 +33,8 @@ pub struct LeggedRobot<T, const LEGS: usize> {
     pub(crate) reach: [T; LEGS],
     /// Whether some joint's coordinate counts against its frame's axis.
     pub(crate) has_reversed: bool,
+    /// Whether some joint has a rotor.
+    pub(crate) has_rotors: bool,
     pub(crate) gravity: Vector3<T>,
 }
 
@@ -96,6 +98,7 @@ impl<const LEGS: usize> LeggedRobot<f64, LEGS> {
             legs,
             reach,
             has_reversed: tree.has_reversed,
+            has_rotors: tree.has_rotors,
             gravity: tree.gravity,
         })
     }
@@ -107,6 +110,7 @@ impl<const LEGS: usize> LeggedRobot<f64, LEGS> {
             legs: [[self.central.rounded(); LEG]; LEGS],
             reach: [0.0; LEGS],
             has_reversed: self.has_reversed,
+            has_rotors: self.has_rotors,
             gravity: vector_to_f32(&self.gravity),
         };
         let mut leg = 0;

@@ -2,10 +2,11 @@
 
 use super::leg_kinematics::walk_legs;
 use super::robot::LEG;
+use super::workspace_dynamics::fixed_foot_wrench_of_legs;
 use super::{
-    CentralBody, Controller, Fault, Input, LegJacobian, LegKinematics, Reference, RobotState,
-    WorkspaceForm, big_base, central_body, desired_acceleration, fixed_foot_wrench, joint_torques,
-    wrench_distribution,
+    CentralBody, Controller, DesiredAcceleration, Fault, FootWrenches, Input, LegJacobian,
+    LegKinematics, Reference, RobotState, WorkspaceForm, big_base, central_body,
+    desired_acceleration, fixed_foot_wrenches, joint_torques, leg_kinematics, wrench_distribution,
 };
 use crate::Real;
 use crate::spatial::{Quaternion, Twist, Wrench};
@@ -34,7 +35,8 @@ pub struct Command<T, const LEGS: usize> {
 ///
 /// # Cost
 /// No allocation, no panic, no loop but over legs and joints; the same work for every state that is
-/// not faulty.
+/// not faulty. Foot limits add the ground's wrenches and their check to it; without them nothing of
+/// that runs.
 ///
 /// ```
 /// use surefoot::balance::{Controller, LeggedRobot, Reference, RobotState, tick};
@@ -67,25 +69,95 @@ pub fn tick<T: Real, const LEGS: usize>(
 ) -> Result<Command<T, LEGS>, Fault> {
     check_finite(state, reference)?;
     let robot = controller.robot;
+    let is_plain = matches!(controller.form, WorkspaceForm::FixedFoot)
+        && controller.foot_limits.is_none()
+        && !robot.has_reversed
+        && !robot.has_rotors;
+    if !is_plain {
+        return tick_in_full(controller, state, reference);
+    }
     let central = central_body(robot, state)?;
     let desired = desired_acceleration(&controller.gains, &central, state.position, reference)?;
     let mut legs = [LegKinematics::empty(); LEGS];
-    walk_legs(robot, &central, state, &mut legs);
-    let desired_wrench = desired_wrench(controller, &central, &legs, desired.x)?;
+    walk_legs::<T, LEGS, false>(robot, &central, state, &mut legs);
+    let desired_wrench = fixed_foot_wrench_of_legs::<T, LEGS, false>(
+        robot,
+        &central,
+        &legs,
+        controller.singularity,
+        desired.x,
+        |_, _| {},
+    )?;
     let feet = wrench_distribution(desired_wrench, &legs).ok_or(Fault::Overflow)?;
+    command(&legs, desired_wrench, &feet, &desired)
+}
 
+/// The same with the big base, foot limits, reversed joints or rotors. A function apart, so that a tick
+/// without them costs a test more and nothing else: what a branch reads cannot stay in registers
+/// before it.
+#[inline(never)]
+fn tick_in_full<T: Real, const LEGS: usize>(
+    controller: &Controller<'_, T, LEGS>,
+    state: &RobotState<T, LEGS>,
+    reference: &Reference<T>,
+) -> Result<Command<T, LEGS>, Fault> {
+    let robot = controller.robot;
+    let central = central_body(robot, state)?;
+    let desired = desired_acceleration(&controller.gains, &central, state.position, reference)?;
+    let legs = leg_kinematics(robot, &central, state);
+    let x = desired.x;
+    let held = || fixed_foot_wrenches(robot, &central, &legs, controller.singularity, x);
+    let (desired_wrench, held) = match (controller.form, &controller.foot_limits) {
+        (WorkspaceForm::BigBase { factor }, None) => {
+            (big_base_wrench(controller, &central, &legs, factor, x)?, None)
+        }
+        (WorkspaceForm::BigBase { factor }, Some(limits)) => {
+            (big_base_wrench(controller, &central, &legs, factor, x)?, Some((limits, held()?)))
+        }
+        (WorkspaceForm::FixedFoot, limits) => {
+            let held = held()?;
+            (held.on_central_body, limits.as_ref().map(|limits| (limits, held)))
+        }
+    };
+    let feet = wrench_distribution(desired_wrench, &legs).ok_or(Fault::Overflow)?;
+    let command = command(&legs, desired_wrench, &feet, &desired)?;
+    if let Some((limits, held)) = held {
+        limits.check(robot, &legs, &feet, &held)?;
+    }
+    Ok(command)
+}
+
+/// `F_1 = P_1 X + z_1` (4.3) with the big base.
+#[inline]
+fn big_base_wrench<T: Real, const LEGS: usize>(
+    controller: &Controller<'_, T, LEGS>,
+    central: &CentralBody<T>,
+    legs: &[LegKinematics<T>; LEGS],
+    factor: T,
+    x: Twist<T>,
+) -> Result<Wrench<T>, Fault> {
+    let robot = controller.robot;
+    // The big base has an inertia even for a straight knee, but no torque that makes it move.
+    for (leg, (kinematics, reach)) in legs.iter().zip(&robot.reach).enumerate() {
+        LegJacobian::new(kinematics, *reach, controller.singularity)
+            .ok_or(Fault::SingularLeg { leg })?;
+    }
+    Ok(big_base(robot, central, legs, factor)?.wrench(x))
+}
+
+/// Alg. 4.6 for all legs.
+#[inline(always)]
+fn command<T: Real, const LEGS: usize>(
+    legs: &[LegKinematics<T>; LEGS],
+    desired_wrench: Wrench<T>,
+    feet: &FootWrenches<T, LEGS>,
+    desired: &DesiredAcceleration<T>,
+) -> Result<Command<T, LEGS>, Fault> {
     let mut torques = [[T::zero(); LEG]; LEGS];
-    for (leg, ((torques, kinematics), foot)) in
-        torques.iter_mut().zip(&legs).zip(&feet.in_central_axes).enumerate()
-    {
+    for ((torques, kinematics), foot) in torques.iter_mut().zip(legs).zip(&feet.in_central_axes) {
         *torques = joint_torques(kinematics, *foot);
         if !torques.iter().all(|x| x.is_finite()) {
             return Err(Fault::Overflow);
-        }
-        if let Some(limits) = &controller.foot_limits
-            && let Some(limit) = limits.broken(&central, kinematics, *foot)
-        {
-            return Err(Fault::FootWrench { leg, limit });
         }
     }
     Ok(Command {
@@ -95,30 +167,6 @@ pub fn tick<T: Real, const LEGS: usize>(
         position_error: desired.position_error,
         orientation_error: desired.orientation_error,
     })
-}
-
-/// `F_1 = P_1 X + z_1` (4.3) in the controller's form of the workspace dynamics.
-#[inline(always)]
-fn desired_wrench<T: Real, const LEGS: usize>(
-    controller: &Controller<'_, T, LEGS>,
-    central: &CentralBody<T>,
-    legs: &[LegKinematics<T>; LEGS],
-    x: Twist<T>,
-) -> Result<Wrench<T>, Fault> {
-    let robot = controller.robot;
-    match controller.form {
-        WorkspaceForm::FixedFoot => {
-            fixed_foot_wrench(robot, central, legs, controller.singularity, x)
-        }
-        WorkspaceForm::BigBase { factor } => {
-            // The big base has an inertia even for a straight knee, but no torque that makes it move.
-            for (leg, (kinematics, reach)) in legs.iter().zip(&robot.reach).enumerate() {
-                LegJacobian::new(kinematics, *reach, controller.singularity)
-                    .ok_or(Fault::SingularLeg { leg })?;
-            }
-            Ok(big_base(robot, central, legs, factor)?.wrench(x))
-        }
-    }
 }
 
 #[inline(always)]

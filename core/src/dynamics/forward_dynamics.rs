@@ -3,7 +3,8 @@
 //! # Notation
 //! In joint frames, with classical accelerations less gravity `a'` (see the module's page):
 //! - `P, z` articulated inertia and bias: `F = P a' + z` (3.36)
-//! - `U = P H`, `D = Hᵀ U`, `u = τ − Hᵀ z`, `c` velocity products
+//! - `U = P H`, `D = Hᵀ U + I` with the joint's rotor inertia `I`, `u = τ − Hᵀ z`, `c` velocity
+//!   products
 //!
 //! ```text
 //! D β̇ = u − Uᵀ (A a'_{k.i} + c)                                            (3.59)
@@ -51,16 +52,16 @@ pub fn forward_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
     torques: &[T; NV],
     external: Option<&[Wrench<T>; N]>,
 ) -> Result<[T; NV], DynamicsFault> {
-    if tree.has_reversed {
-        return of_reversed(tree, joint_poses, velocities, torques, external);
+    if tree.has_reversed || tree.has_rotors {
+        return with_rotors(tree, joint_poses, velocities, torques, external);
     }
-    recursion(tree, joint_poses, velocities, torques, external)
+    recursion::<T, N, NQ, NV, false>(tree, joint_poses, velocities, torques, external)
 }
 
-/// The same where some joint is reversed.
+/// The same for trees with rotors or reversed joints. Apart, so that others do not pay for them.
 #[cold]
 #[inline(never)]
-fn of_reversed<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+fn with_rotors<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     tree: &Tree<T, N, NQ, NV>,
     joint_poses: &JointPoses<T, N, NQ>,
     velocities: &[T; NV],
@@ -68,12 +69,13 @@ fn of_reversed<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     external: Option<&[Wrench<T>; N]>,
 ) -> Result<[T; NV], DynamicsFault> {
     let (velocities, torques) = (reversed(tree, velocities), reversed(tree, torques));
-    let along = recursion(tree, joint_poses, &velocities, &torques, external)?;
+    let along =
+        recursion::<T, N, NQ, NV, true>(tree, joint_poses, &velocities, &torques, external)?;
     Ok(reversed(tree, &along))
 }
 
 #[inline]
-fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize, const HAS_ROTORS: bool>(
     tree: &Tree<T, N, NQ, NV>,
     joint_poses: &JointPoses<T, N, NQ>,
     velocities: &[T; NV],
@@ -105,8 +107,9 @@ fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize>(
             JointKind::Fixed => (p[k], z[k] + p[k].product(terms[k].product)),
             JointKind::Revolute(axis) => {
                 let torque = own_one(node, torques);
+                let rotor = HAS_ROTORS.then_some(node.rotor_inertia);
                 let (projected, bias, hinge) =
-                    project_turn(*axis, &p[k], &z[k], terms[k].product, torque)
+                    project_turn(*axis, &p[k], &z[k], terms[k].product, torque, rotor)
                         .ok_or(DynamicsFault::SingularInertia { joint: k })?;
                 hinges[k] = hinge;
                 (projected, bias)
@@ -117,6 +120,7 @@ fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize>(
                     Axis::Y => slide_column::<T, 1>(&p[k], &z[k]),
                     Axis::Z => slide_column::<T, 2>(&p[k], &z[k]),
                 };
+                let d = if HAS_ROTORS { d + node.rotor_inertia } else { d };
                 let hinge = hinge(image, d, own_one(node, torques) - force)
                     .ok_or(DynamicsFault::SingularInertia { joint: k })?;
                 hinges[k] = hinge;
@@ -222,12 +226,14 @@ pub(crate) fn project_turn<T: Real>(
     z: &Wrench<T>,
     product: Twist<T>,
     torque: T,
+    rotor_inertia: Option<T>,
 ) -> Option<(ArticulatedInertia<T>, Wrench<T>, Hinge<T>)> {
     let (image, d, moment) = match axis {
         Axis::X => turn_column::<T, 0>(p, z),
         Axis::Y => turn_column::<T, 1>(p, z),
         Axis::Z => turn_column::<T, 2>(p, z),
     };
+    let d = rotor_inertia.map_or(d, |rotor| d + rotor);
     let hinge = hinge(image, d, torque - moment)?;
     let (projected, bias) = project_hinge(p, z, &hinge, product);
     Some((projected, bias, hinge))

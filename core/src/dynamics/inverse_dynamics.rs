@@ -5,18 +5,19 @@
 //! - `ω, ω̇, a` angular velocity, angular acceleration, acceleration of the origin less gravity
 //! - `K = ω̇ˆ + ω̂ω̂`, so that the acceleration of a point at `r` is `a + K r` (1)
 //! - `m, h, J` mass, first moment, rotational inertia
+//! - `I` rotor inertia of a joint
 //! - `f, n` wrench through the joint: `F_{k.o}` of (3.17)
 //!
 //! ```text
 //! f = m a + K h − f_ext + Σ f_out,   n = h × a + J ω̇ + ω × J ω − n_ext + Σ (n_out + r × f_out)  (2)
-//! τ = Hᵀ (f, n)                                                                                (3.20)
+//! τ = Hᵀ (f, n) + I β̇                                                                          (3.20)
 //! ```
 
 use super::JointPoses;
 use super::forward_kinematics::inboard;
 use super::joint_motion::{JointMotion, own, own_one};
 use super::joint_poses::JointPose;
-use super::reversed::{along_axes, reverse};
+use super::reversed::reversed;
 use crate::Real;
 use crate::model::{Axis, JointKind, Node, Tree};
 use crate::spatial::{Twist, Wrench};
@@ -49,7 +50,41 @@ pub fn inverse_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
     accelerations: &[T; NV],
     external: Option<&[Wrench<T>; N]>,
 ) -> [T; NV] {
-    along_axes!(tree, velocities, accelerations);
+    if tree.has_reversed || tree.has_rotors {
+        return with_rotors(tree, joint_poses, velocities, accelerations, external);
+    }
+    recursion(tree, joint_poses, velocities, accelerations, external)
+}
+
+/// The same for trees with rotors or reversed joints. Apart, so that others do not pay for them.
+#[cold]
+#[inline(never)]
+fn with_rotors<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    joint_poses: &JointPoses<T, N, NQ>,
+    velocities: &[T; NV],
+    accelerations: &[T; NV],
+    external: Option<&[Wrench<T>; N]>,
+) -> [T; NV] {
+    let (velocities, accelerations) = (reversed(tree, velocities), reversed(tree, accelerations));
+    let mut torques = recursion(tree, joint_poses, &velocities, &accelerations, external);
+    // A joint without velocities has no rotor, and where its own would start is another's.
+    for node in tree.nodes.iter().filter(|node| node.rotor_inertia > T::zero()) {
+        if let Some(torque) = torques.get_mut(node.velocity_start) {
+            *torque += node.rotor_inertia * own_one(node, &accelerations);
+        }
+    }
+    reversed(tree, &torques)
+}
+
+#[inline]
+fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    joint_poses: &JointPoses<T, N, NQ>,
+    velocities: &[T; NV],
+    accelerations: &[T; NV],
+    external: Option<&[Wrench<T>; N]>,
+) -> [T; NV] {
     let base = Motion {
         omega: Vector3::zeros(),
         omega_dot: Vector3::zeros(),
@@ -78,9 +113,6 @@ pub fn inverse_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
         if let Some(inboard) = node.inboard.and_then(|i| wrenches.get_mut(i)) {
             *inboard += carried(&pose, &wrench);
         }
-    }
-    if tree.has_reversed {
-        reverse(tree, &mut torques);
     }
     torques
 }

@@ -8,7 +8,6 @@ use super::JointPoses;
 use super::inverse_dynamics::carried;
 use super::joint_motion::JointMotion;
 use super::joint_poses::relative;
-use super::reversed::reverse_matrix;
 use crate::Real;
 use crate::model::{Axis, JointKind, Node, Tree};
 use crate::spatial::{RigidInertia, SymmetricMatrix3, Twist, Wrench};
@@ -65,10 +64,36 @@ pub fn mass_matrix<T: Real, const N: usize, const NQ: usize, const NV: usize>(
             }
         }
     }
-    if tree.has_reversed {
-        reverse_matrix(tree, &mut matrix);
+    if tree.has_reversed || tree.has_rotors {
+        complete(tree, &mut matrix);
     }
     matrix
+}
+
+/// Turns rows and columns of reversed joints round, and adds rotor inertias to the diagonal.
+#[cold]
+#[inline(never)]
+fn complete<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    matrix: &mut [[T; NV]; NV],
+) {
+    for node in &tree.nodes {
+        let i = node.velocity_start;
+        if node.is_reversed {
+            for x in matrix.iter_mut().filter_map(|row| row.get_mut(i)) {
+                *x = -*x;
+            }
+            for x in matrix.get_mut(i).into_iter().flatten() {
+                *x = -*x;
+            }
+        }
+        // A joint without velocities has no rotor, and its `i` is another's.
+        if node.rotor_inertia > T::zero()
+            && let Some(entry) = matrix.get_mut(i).and_then(|row| row.get_mut(i))
+        {
+            *entry += node.rotor_inertia;
+        }
+    }
 }
 
 /// `I^c H` of a turn about axis `I`: `(e × h, J e)`.

@@ -16,21 +16,12 @@ pub(super) fn reversed<T: Real, const N: usize, const NQ: usize, const NV: usize
     all: &[T; NV],
 ) -> [T; NV] {
     let mut turned = *all;
-    reverse(tree, &mut turned);
-    turned
-}
-
-/// The same in place.
-#[inline(always)]
-pub(super) fn reverse<T: Real, const N: usize, const NQ: usize, const NV: usize>(
-    tree: &Tree<T, N, NQ, NV>,
-    all: &mut [T; NV],
-) {
     for node in tree.nodes.iter().filter(|node| node.is_reversed) {
-        if let Some(x) = all.get_mut(node.velocity_start) {
+        if let Some(x) = turned.get_mut(node.velocity_start) {
             *x = -*x;
         }
     }
+    turned
 }
 
 /// The same for coordinates.
@@ -47,35 +38,19 @@ pub(super) fn reverse_positions<T: Real, const N: usize, const NQ: usize, const 
     }
 }
 
-/// The same for a matrix' rows and columns.
-#[cold]
-#[inline(never)]
-pub(super) fn reverse_matrix<T: Real, const N: usize, const NQ: usize, const NV: usize>(
-    tree: &Tree<T, N, NQ, NV>,
-    matrix: &mut [[T; NV]; NV],
-) {
-    for node in tree.nodes.iter().filter(|node| node.is_reversed) {
-        let start = node.velocity_start;
-        if let Some(row) = matrix.get_mut(start) {
-            row.iter_mut().for_each(|x| *x = -*x);
-        }
-        for x in matrix.iter_mut().filter_map(|row| row.get_mut(start)) {
-            *x = -*x;
-        }
-    }
-}
-
 /// Shadows arrays, one number a velocity, by those in the frames' sense: themselves where no joint is
 /// reversed.
 macro_rules! along_axes {
     ($tree:expr, $($array:ident),+) => {
-        let turned;
-        let [$($array),+] = if $tree.has_reversed {
-            turned = [$(super::reversed::reversed($tree, $array)),+];
-            turned.each_ref()
-        } else {
-            [$($array),+]
-        };
+        $(
+            let turned;
+            let $array = if $tree.has_reversed {
+                turned = super::reversed::reversed($tree, $array);
+                &turned
+            } else {
+                $array
+            };
+        )+
     };
 }
 pub(super) use along_axes;

@@ -16,6 +16,8 @@ pub struct BodyShape<T> {
     pub joint: Vector3<T>,
     /// The joint's axis; zero for a joint that has none of its own.
     pub axis: Vector3<T>,
+    /// Of the joint's rotor, reflected to the joint: kg·m², or kg where it slides.
+    pub rotor_inertia: T,
 }
 
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Tree<T, N, NQ, NV> {
@@ -41,6 +43,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Tree<T, N, NQ, N
             inertia: rotation.tr_mul(&(central * rotation)),
             joint: -rotation.tr_mul(&c),
             axis: rotation.tr_mul(&axis),
+            rotor_inertia: node.rotor_inertia,
         })
     }
 }

@@ -55,7 +55,9 @@ pub enum LinkFault {
     Moments,
     /// Its products of inertia are too large for its moments.
     Products,
-    /// It is the last of its branch and has no mass, so that its joint can have no acceleration.
+    /// Its rotor inertia is negative, NaN or infinite, or its joint does neither turn nor slide.
+    RotorInertia,
+    /// It is the last of its branch and has neither mass nor rotor, so that its joint can have no acceleration.
     LeafWithoutMass,
 }
 
@@ -84,6 +86,9 @@ impl LinkFault {
             }
             Self::Products => {
                 "no body has this inertia: its products are too large for its moments"
+            }
+            Self::RotorInertia => {
+                "a rotor inertia is finite and not negative, of a joint that turns or slides"
             }
             Self::LeafWithoutMass => {
                 "the last link of a branch needs a mass, or its joint can have no acceleration"

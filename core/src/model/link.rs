@@ -26,6 +26,7 @@ pub struct Link {
     pub(super) inertia: [f64; 6],
     pub(super) center: [f64; 3],
     pub(super) orientation: [f64; 4],
+    pub(super) rotor_inertia: f64,
 }
 
 impl Link {
@@ -37,6 +38,7 @@ impl Link {
             inertia: [0.0; 6],
             center: [0.0; 3],
             orientation: [1.0, 0.0, 0.0, 0.0],
+            rotor_inertia: 0.0,
         }
     }
 
@@ -87,5 +89,17 @@ impl Link {
     /// describing frame).
     pub const fn oriented(self, orientation: [f64; 4]) -> Self {
         Self { orientation, ..self }
+    }
+
+    /// The inertia of the joint's motor and gear, reflected to the joint: rotor inertia times the
+    /// square of the gear ratio, kg·m² (a mass in kg, for a joint that slides). Also called armature.
+    /// Default: none. Only joints that turn or slide can have one.
+    ///
+    /// It resists the joint's acceleration and nothing else: torque gains `I θ̈`, the mass matrix `I` on
+    /// its diagonal. What a rotor weighs belongs to the body that carries it. Left out, as usual, is
+    /// what is smaller by the gear ratio: gyroscopic torques of the rotor, and its part in the angular
+    /// momentum of the body that carries it.
+    pub const fn rotor_inertia(self, rotor_inertia: f64) -> Self {
+        Self { rotor_inertia, ..self }
     }
 }

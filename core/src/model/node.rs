@@ -29,6 +29,10 @@ pub(crate) struct Node<T> {
     pub is_offset: bool,
     /// Inboard from this frame at home, where they are not parallel.
     pub home_rotation: Option<Matrix3<T>>,
+    /// The frame's axes at home in the describing frame, where they are not parallel.
+    pub home_axes: Option<Matrix3<T>>,
+    /// Of the joint's rotor, reflected to the joint: kg·m², or kg where it slides.
+    pub rotor_inertia: T,
     /// Of the outboard body.
     pub inertia: RigidInertia<T>,
     /// Whether the centre of mass is away from the joint.
@@ -83,6 +87,8 @@ pub(super) const EMPTY: Node<f64> = Node {
     offset: Vector3::new(0.0, 0.0, 0.0),
     is_offset: false,
     home_rotation: None,
+    home_axes: None,
+    rotor_inertia: 0.0,
     inertia: RigidInertia {
         mass: 0.0,
         first_moment: Vector3::new(0.0, 0.0, 0.0),

@@ -14,7 +14,12 @@ impl<const N: usize, const NQ: usize, const NV: usize> Tree<f64, N, NQ, NV> {
             nodes[k] = self.nodes[k].rounded();
             k += 1;
         }
-        Tree { nodes, has_reversed: self.has_reversed, gravity: vector_to_f32(&self.gravity) }
+        Tree {
+            nodes,
+            has_reversed: self.has_reversed,
+            has_rotors: self.has_rotors,
+            gravity: vector_to_f32(&self.gravity),
+        }
     }
 }
 
@@ -33,6 +38,11 @@ impl Node<f64> {
                 Some(m) => Some(matrix(m)),
                 None => None,
             },
+            home_axes: match &self.home_axes {
+                Some(m) => Some(matrix(m)),
+                None => None,
+            },
+            rotor_inertia: self.rotor_inertia as f32,
             inertia: RigidInertia {
                 mass: self.inertia.mass as f32,
                 first_moment: vector_to_f32(&self.inertia.first_moment),

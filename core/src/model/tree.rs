@@ -52,6 +52,8 @@ pub struct Tree<T, const N: usize, const NQ: usize, const NV: usize> {
     pub(crate) nodes: [Node<T>; N],
     /// Whether some joint's coordinate counts against its frame's axis.
     pub(crate) has_reversed: bool,
+    /// Whether some joint has a rotor.
+    pub(crate) has_rotors: bool,
     pub(crate) gravity: Vector3<T>,
 }
 
@@ -97,7 +99,7 @@ impl<const N: usize, const NQ: usize, const NV: usize> Tree<f64, N, NQ, NV> {
         let mut is_leaf = [true; N];
         let mut positions = 0;
         let mut velocities = 0;
-        let mut has_reversed = false;
+        let (mut has_reversed, mut has_rotors) = (false, false);
         let mut nodes = [EMPTY; N];
         let mut k = 0;
         while k < N {
@@ -121,13 +123,14 @@ impl<const N: usize, const NQ: usize, const NV: usize> Tree<f64, N, NQ, NV> {
             nodes[k].position_start = positions;
             nodes[k].velocity_start = velocities;
             has_reversed = has_reversed || nodes[k].is_reversed;
+            has_rotors = has_rotors || nodes[k].rotor_inertia > 0.0;
             positions += nodes[k].kind.coordinates();
             velocities += nodes[k].kind.degrees_of_freedom();
             k += 1;
         }
         let mut k = 0;
         while k < N {
-            if is_leaf[k] && links[k].mass == 0.0 {
+            if is_leaf[k] && links[k].mass == 0.0 && links[k].rotor_inertia == 0.0 {
                 return Err(TreeFault::Link { index: k, reason: LinkFault::LeafWithoutMass });
             }
             k += 1;
@@ -138,7 +141,7 @@ impl<const N: usize, const NQ: usize, const NV: usize> Tree<f64, N, NQ, NV> {
         if velocities != NV {
             return Err(TreeFault::Velocities { given: NV, needed: velocities });
         }
-        Ok(Self { nodes, has_reversed, gravity: Vector3::new(0.0, 0.0, -GRAVITY) })
+        Ok(Self { nodes, has_reversed, has_rotors, gravity: Vector3::new(0.0, 0.0, -GRAVITY) })
     }
 
     /// The same tree under another gravity (m/s², inertial frame).
@@ -271,6 +274,11 @@ const fn node(
     if floating && inboard.is_some() {
         return Err(LinkFault::FloatingInboard);
     }
+    let can_have_rotor = matches!(kind, JointKind::Revolute(_) | JointKind::Prismatic(_));
+    let rotor = link.rotor_inertia;
+    if !(rotor >= 0.0 && rotor.is_finite() && (rotor == 0.0 || can_have_rotor)) {
+        return Err(LinkFault::RotorInertia);
+    }
     let to_inboard = transpose(from.axes);
     let offset =
         if floating { [0.0; 3] } else { times(to_inboard, minus(home.origin, from.origin)) };
@@ -315,6 +323,8 @@ const fn node(
         offset: vector(offset),
         is_offset: !is_zero(offset),
         home_rotation: matrix_unless_identity(home_rotation),
+        home_axes: matrix_unless_identity(home.axes),
+        rotor_inertia: link.rotor_inertia,
         inertia: RigidInertia {
             mass: m,
             first_moment: Vector3::new(m * x, m * y, m * z),

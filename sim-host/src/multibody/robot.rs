@@ -32,6 +32,10 @@ pub fn system_of_tree<const N: usize, const NQ: usize, const NV: usize>(
         if products > 1e-12 * diagonal.sum() {
             return Err(unsupported("a body frame along the body's principal axes"));
         }
+        // Left out, it would be a lighter robot without a word.
+        if shape.rotor_inertia != 0.0 {
+            return Err(unsupported("a joint without rotor inertia"));
+        }
         let inboard = tree.inboard(k);
         let of_inboard = inboard.map_or(Pose::identity(), |i| home[i]);
         let relative = of_inboard.inverse().compose(&home[k]);

@@ -21,16 +21,13 @@ static ROBOT: LeggedRobot<f32, 2> = LeggedRobot::new(&biped::TREE).to_f32();
 /// reference the optimiser knows nothing but the types.
 #[inline(always)]
 pub fn opaque_tick() {
+    let sole = Sole { x: [-0.2, 0.05], y: [-0.05, 0.05], z: -0.06 };
     let controller = Controller {
         robot: black_box(&ROBOT),
         gains: black_box(Gains::experiments()),
         form: black_box(WorkspaceForm::BigBase { factor: 1e3 }),
         singularity: black_box(0.01),
-        foot_limits: black_box(Some(FootLimits {
-            least_normal_force: 0.0,
-            friction: Some(0.3),
-            sole: Some(Sole { x: [-0.2, 0.05], y: [-0.05, 0.05], z: -0.06 }),
-        })),
+        foot_limits: black_box(FootLimits::new(0.0, Some(0.3), Some(sole)).ok()),
     };
     let position = Vector3::new(0.0, 0.0, 1.035);
     let state = black_box(RobotState {

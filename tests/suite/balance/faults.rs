@@ -144,8 +144,7 @@ fn finite_but_too_large() {
 fn wrenches_that_the_ground_cannot_give() {
     let mut controller = Controller::new(&ROBOT);
     let sole = Sole { x: [-0.2015, 0.0503], y: [-0.05, 0.05], z: -0.06 };
-    controller.foot_limits =
-        Some(FootLimits { least_normal_force: 0.0, friction: Some(0.3), sole: Some(sole) });
+    controller.foot_limits = FootLimits::new(0.0, Some(0.3), Some(sole)).ok();
     let (state, good) = standing::<f64>();
     assert!(tick(&controller, &state, &good).is_ok());
     let fault = |change: &dyn Fn(&mut Reference<f64>)| {
@@ -159,8 +158,7 @@ fn wrenches_that_the_ground_cannot_give() {
     let slip = fault(&|r| r.acceleration.y = 5.0);
     assert!(matches!(slip, Fault::FootWrench { limit: FootLimit::Friction, .. }), "{slip}");
     // On ice with spikes: no friction limit, so that the edge of the sole is the first.
-    controller.foot_limits =
-        Some(FootLimits { least_normal_force: 0.0, friction: None, sole: Some(sole) });
+    controller.foot_limits = FootLimits::new(0.0, None, Some(sole)).ok();
     let mut reference = good;
     reference.angular_acceleration.y = 60.0;
     let tip = tick(&controller, &state, &reference).expect_err("too much for a foot");

@@ -2,6 +2,7 @@
 
 mod distribution;
 mod faults;
+mod ground;
 mod orientation;
 mod supervisor;
 mod vectors;

@@ -63,7 +63,7 @@ fn forward_dynamics_undoes_inverse_dynamics_on_1000_random_trees() {
 
 /// Column i of 𝕄 is the torque for unit acceleration i, at rest and without gravity; 𝕄 is symmetric
 /// and positive definite; and torque = 𝕄 β̇ + ℂ.
-fn check_mass_matrix<const NQ: usize, const NV: usize>(
+pub(super) fn check_mass_matrix<const NQ: usize, const NV: usize>(
     rng: &mut rand_pcg::Pcg64,
     tree: &Tree<f64, N, NQ, NV>,
 ) {

@@ -4,5 +4,7 @@ mod closed_forms;
 mod faults;
 mod identities;
 mod momentum;
+mod rotors;
+mod trees;
 mod vectors;
 mod virtual_work;

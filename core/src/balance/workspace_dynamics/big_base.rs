@@ -81,7 +81,8 @@ fn leg_recursion<T: Real, const LEGS: usize>(
             angular: r.tr_mul(&inboard_omega.cross(&leg.axes[k])) * leg.rates[k],
         };
         let JointKind::Revolute(axis) = &node.kind else { return None };
-        let (projected, projected_bias, _) = project_turn(*axis, &p, &z, product, T::zero())?;
+        let (projected, projected_bias, _) =
+            project_turn(*axis, &p, &z, product, T::zero(), Some(node.rotor_inertia))?;
         let relative = Rotation::General(inboard_rotation.tr_mul(r));
         p = projected.rotated_inboard(&relative).shifted(node.offset);
         z = Wrench {

@@ -9,7 +9,8 @@
 //! # Notation
 //! Frame 1; `o` the last joint, `q_k, e_k, ω_k` joints, axes, angular velocities.
 //! - `α_k, a_k` angular acceleration of link k, acceleration of `q_k` less gravity
-//! - `t_k = e_k · n_k`, with `n_k` the moment about `q_k` of the inertial forces of links k to 5
+//! - `t_k = e_k · n_k + I_k θ̈_k`, with `n_k` the moment about `q_k` of the inertial forces of links k
+//!   to 5, and `I_k` the joint's rotor inertia
 //! - `w` wrench at `o` with `Jᵀ w = t`; `F_k` inertial wrenches
 //!
 //! ```text
@@ -47,6 +48,25 @@ pub fn fixed_foot_wrench<T: Real, const LEGS: usize>(
     singularity: T,
     x: Twist<T>,
 ) -> Result<Wrench<T>, Fault> {
+    fixed_foot_wrench_of_legs::<T, LEGS, true>(robot, central, legs, singularity, x, |_, _| {})
+}
+
+/// The same, which calls `held` with the number of each leg and its `w`: the wrench at the last joint,
+/// frame 1's axes, by which the ground holds the leg while its joints are free. Without `ROTORS` for
+/// robots that have none.
+#[inline(always)]
+pub(in crate::balance) fn fixed_foot_wrench_of_legs<
+    T: Real,
+    const LEGS: usize,
+    const ROTORS: bool,
+>(
+    robot: &LeggedRobot<T, LEGS>,
+    central: &CentralBody<T>,
+    legs: &[LegKinematics<T>; LEGS],
+    singularity: T,
+    x: Twist<T>,
+    mut held: impl FnMut(usize, Wrench<T>),
+) -> Result<Wrench<T>, Fault> {
     let v = central.velocity;
     // Acceleration of the centre of mass less gravity, from the component derivative.
     let a = x.linear + v.angular.cross(&v.linear) - central.gravity;
@@ -55,21 +75,30 @@ pub fn fixed_foot_wrench<T: Real, const LEGS: usize>(
     {
         let jacobian =
             LegJacobian::new(leg, *reach, singularity).ok_or(Fault::SingularLeg { leg: number })?;
-        wrench += leg_wrench(links, leg, &jacobian, central, x.angular, a);
+        let inertial = leg_wrench::<T, ROTORS>(links, leg, &jacobian, central, x.angular, a);
+        wrench += inertial.links - inertial.ground.shifted(leg.origins[LEG - 1]);
+        held(number, inertial.ground);
     }
     Ok(wrench)
 }
 
-/// One leg's part of (3), at the centre of mass of the central body.
+/// One leg's part of (3).
+struct LegWrench<T> {
+    /// `Σ F_k`, at the centre of mass of the central body.
+    links: Wrench<T>,
+    /// `w`, at the last joint.
+    ground: Wrench<T>,
+}
+
 #[inline(always)]
-fn leg_wrench<T: Real>(
+fn leg_wrench<T: Real, const ROTORS: bool>(
     links: &[Node<T>; LEG],
     leg: &LegKinematics<T>,
     jacobian: &LegJacobian<T>,
     central: &CentralBody<T>,
     alpha_1: Vector3<T>,
     a_1: Vector3<T>,
-) -> Wrench<T> {
+) -> LegWrench<T> {
     let zero = Vector3::zeros();
     // What the foot would do with θ̈ = 0, and by (2) should do.
     let (alpha, a) = accelerate(leg, central, alpha_1, a_1, &[T::zero(); LEG], |_, _, _| {});
@@ -94,8 +123,12 @@ fn leg_wrench<T: Real>(
         at = leg.origins[k];
         t[k] = leg.axes[k].dot(&sum.torque);
     }
-    let w = jacobian.solve_transposed(&t);
-    sum.shifted(at) - w.shifted(leg.origins[LEG - 1])
+    if ROTORS {
+        for ((t, node), theta_ddot) in t.iter_mut().zip(links).zip(theta_ddot) {
+            *t += node.rotor_inertia * theta_ddot;
+        }
+    }
+    LegWrench { links: sum.shifted(at), ground: jacobian.solve_transposed(&t) }
 }
 
 /// (1) along a leg: calls `link` with the number, angular acceleration and joint's acceleration of
@@ -131,7 +164,8 @@ fn accelerate<T: Real>(
 /// from its foot.
 ///
 /// Link j moves with the joints outboard of it, `V_j = −Σ_{k>j} S_k θ̇_k`, so that joints k ≤ m share
-/// the links inboard of k: `M_l[k, m] = S_kᵀ (Σ_{j<k} I_j) S_m` (4).
+/// the links inboard of k: `M_l[k, m] = S_kᵀ (Σ_{j<k} I_j) S_m` (4). A rotor adds its inertia on the
+/// diagonal.
 ///
 /// # Errors
 /// [`Fault::SingularLeg`].
@@ -191,6 +225,9 @@ fn leg_inertia<T: Real>(
             m[k][j] = entry;
             m[j][k] = entry;
         }
+    }
+    for k in 0..LEG {
+        m[k][k] += links[k].rotor_inertia;
     }
     // Rows of J⁻ᵀ M (M is symmetric), then columns.
     let rows = m.map(|row| jacobian.solve_transposed(&row).to_array());

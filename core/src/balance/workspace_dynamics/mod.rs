@@ -10,6 +10,7 @@ mod fixed_foot;
 mod inertial;
 
 pub use big_base::big_base;
+pub(super) use fixed_foot::fixed_foot_wrench_of_legs;
 pub use fixed_foot::{fixed_foot_dynamics, fixed_foot_wrench};
 
 use crate::Real;

@@ -35,41 +35,33 @@ const fn small(link: Link, center: [f64; 3]) -> Link {
     link.body(0.343, [0.00028; 3], center)
 }
 
-/// The six links of the leg at lateral position `y`, its first hanging from link 1; `first` is the
-/// number of that first link.
-const fn leg(first: usize, y: f64) -> [Link; 6] {
-    let hip = [0.0, y, 0.96];
-    let knee = [0.0, y, 0.50];
-    let ankle = [0.0, y, 0.06];
+/// The central body.
+pub const CENTRAL: Link = Link::floating(0).body(45.0, [1.67, 1.58, 0.581], [0.0, 0.0, 1.23]);
+
+/// The six links of a leg whose joints are above `[x, y]`, its first hanging from link 1; `first` is
+/// the number of that first link.
+pub const fn leg(first: usize, [x, y]: [f64; 2]) -> [Link; 6] {
+    let hip = [x, y, 0.96];
+    let knee = [x, y, 0.50];
+    let ankle = [x, y, 0.06];
     [
         small(Link::revolute(1, X, hip), hip),
         small(Link::revolute(first, Y, hip), hip),
-        Link::revolute(first + 1, Z, hip).body(7.5, [0.163, 0.171, 0.0198], [0.0, y, 0.73]),
-        Link::revolute(first + 2, Y, knee).body(4.79, [0.0961, 0.0959, 0.00784], [0.0, y, 0.28]),
+        Link::revolute(first + 1, Z, hip).body(7.5, [0.163, 0.171, 0.0198], [x, y, 0.73]),
+        Link::revolute(first + 2, Y, knee).body(4.79, [0.0961, 0.0959, 0.00784], [x, y, 0.28]),
         small(Link::revolute(first + 3, X, ankle), ankle),
         Link::revolute(first + 4, Y, ankle)
-            .body(1.455, [0.00189, 0.00608, 0.00662], [-0.05325, y, 0.03473])
+            .body(1.455, [0.00189, 0.00608, 0.00662], [x - 0.05325, y, 0.03473])
             .oriented(FOOT_ORIENTATION),
     ]
 }
 
-const LEFT: [Link; 6] = leg(2, -0.15);
-const RIGHT: [Link; 6] = leg(8, 0.15);
+const LEFT: [Link; 6] = leg(2, [0.0, -0.15]);
+const RIGHT: [Link; 6] = leg(8, [0.0, 0.15]);
 
 const LINKS: [Link; 13] = [
-    Link::floating(0).body(45.0, [1.67, 1.58, 0.581], [0.0, 0.0, 1.23]),
-    LEFT[0],
-    LEFT[1],
-    LEFT[2],
-    LEFT[3],
-    LEFT[4],
-    LEFT[5],
-    RIGHT[0],
-    RIGHT[1],
-    RIGHT[2],
-    RIGHT[3],
-    RIGHT[4],
-    RIGHT[5],
+    CENTRAL, LEFT[0], LEFT[1], LEFT[2], LEFT[3], LEFT[4], LEFT[5], RIGHT[0], RIGHT[1], RIGHT[2],
+    RIGHT[3], RIGHT[4], RIGHT[5],
 ];
 
 /// Where a sole touches the floor. The outline is not printed in the dissertation; these fit its

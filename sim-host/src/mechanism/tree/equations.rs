@@ -178,7 +178,7 @@ impl Parts {
     fn of_size<const N: usize, const NQ: usize, const NV: usize>(
         self,
     ) -> Option<Box<dyn TreeModel>> {
-        let tree = Tree::new(<[Link; N]>::try_from(self.links).ok()?);
+        let tree = Tree::try_new(<[Link; N]>::try_from(self.links).ok()?).ok()?;
         Some(Box::new(Sized::<N, NQ, NV> {
             tree: tree.with_gravity([0.0, 0.0, -self.gravity]),
             positions: self.positions.try_into().ok()?,
