@@ -10,6 +10,8 @@ pub(crate) struct HomeLink {
     /// 0 for the world, else one more than the index.
     pub inboard: usize,
     pub motion: RobotMotion,
+    /// kg m², or kg.
+    pub rotor_inertia: f64,
     pub axis: [f64; 3],
     /// A point of the axis, m.
     pub point: [f64; 3],
@@ -36,6 +38,7 @@ pub(crate) fn home_links(robot: &Robot) -> Vec<HomeLink> {
         HomeLink {
             inboard: link.parent.map_or(0, |parent| parent + 1),
             motion: joint.motion,
+            rotor_inertia: joint.properties.armature,
             axis: components(&(q * joint.axis)),
             point: placed(&joint.point),
             mass: link.inertial.mass,
@@ -60,11 +63,14 @@ impl HomeLink {
         connected
             .body_with_products(self.mass, self.inertia, self.center)
             .oriented(self.orientation)
+            .rotor_inertia(self.rotor_inertia)
     }
 
     /// The same as source text.
     pub fn to_source(self) -> String {
-        let Self { inboard, axis, point, mass, inertia, center, orientation, .. } = self;
+        let Self {
+            inboard, axis, point, mass, inertia, center, orientation, rotor_inertia, ..
+        } = self;
         let connected = match self.motion {
             RobotMotion::Revolute | RobotMotion::Continuous => {
                 format!("Link::revolute({inboard}, {axis:?}, {point:?})")
@@ -73,8 +79,13 @@ impl HomeLink {
             RobotMotion::Spherical => format!("Link::spherical({inboard}, {point:?})"),
             RobotMotion::Floating => format!("Link::floating({inboard})"),
         };
+        // Most have none.
+        let rotor = match rotor_inertia {
+            0.0 => String::new(),
+            rotor => format!(".rotor_inertia({rotor:?})"),
+        };
         format!(
-            "{connected}.body_with_products({mass:?}, {inertia:?}, {center:?}).oriented({orientation:?})"
+            "{connected}.body_with_products({mass:?}, {inertia:?}, {center:?}).oriented({orientation:?}){rotor}"
         )
     }
 }
