@@ -197,12 +197,15 @@ fn properties(element: &Element, kind: DescribedKind) -> Result<JointProperties,
     }
     if let Some(limit) = element.one("limit")? {
         let bound = |name| Ok::<_, ImportError>(limit.list(name)?.and_then(|x| x.first().copied()));
-        let (lower, upper) = (bound("lower")?.unwrap_or(0.0), bound("upper")?.unwrap_or(0.0));
+        let (lower, upper) = (bound("lower")?, bound("upper")?);
+        // One that is left out is 0; a joint without either has no end stops.
+        let range = lower.or(upper).map(|_| [lower.unwrap_or(0.0), upper.unwrap_or(0.0)]);
+        let [lower, upper] = range.unwrap_or_default();
         if lower > upper {
             return Err(limit.malformed("lower ≤ upper", format!("{lower} > {upper}")));
         }
-        properties.range = matches!(kind, DescribedKind::Revolute | DescribedKind::Prismatic)
-            .then_some([lower, upper]);
+        let ends = matches!(kind, DescribedKind::Revolute | DescribedKind::Prismatic);
+        properties.range = range.filter(|_| ends);
         // Files state 0 where nobody has measured.
         properties.effort = bound("effort")?.filter(|x| *x > 0.0);
         properties.rate = bound("velocity")?.filter(|x| *x > 0.0);

@@ -1,8 +1,10 @@
 //! XML as the readers see it: elements that know their file and line, and whether anyone has read them.
 
+mod prefixes;
+
 use crate::error::{ImportError, Place};
 use std::cell::Cell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -45,7 +47,7 @@ pub(crate) fn read(path: &Path) -> Result<Element, ImportError> {
     let text = read_text(path)?;
     match parse(&file, &text) {
         Err(roxmltree::Error::UnknownNamespace(..)) => {
-            let declared = with_prefixes(&text);
+            let declared = prefixes::declared(&text);
             parse(&file, &declared).map_err(|error| not_xml(&file, &error))?
         }
         other => other.map_err(|error| not_xml(&file, &error))?,
@@ -56,45 +58,11 @@ pub(crate) fn read(path: &Path) -> Result<Element, ImportError> {
 fn parse(file: &Arc<str>, text: &str) -> Result<Result<Element, ImportError>, roxmltree::Error> {
     let options = roxmltree::ParsingOptions { nodes_limit: MOST_NODES, ..Default::default() };
     let document = roxmltree::Document::parse_with_options(text, options)?;
-    Ok(convert(file, &document, document.root_element(), 0))
+    Ok(convert(file, &Lines::of(text), document.root_element(), 0))
 }
 
 fn not_xml(file: &Arc<str>, error: &roxmltree::Error) -> ImportError {
     malformed_xml(file, error.pos().row, &error.to_string())
-}
-
-/// The text with every prefix that it has declared in its root element. Files that a preprocessor has left
-/// behind have prefixes that nobody declares; what carries one is not read, and no reason to refuse the
-/// rest. Lines stay what they are.
-fn with_prefixes(text: &str) -> String {
-    let is_name = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
-    let mut prefixes = BTreeSet::new();
-    for (at, _) in text.match_indices(':') {
-        let before = &text[..at];
-        let start = before.rfind(|c| !is_name(c)).map_or(0, |i| i + 1);
-        let prefix = &before[start..];
-        let starts_name = prefix.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
-        let after = text[at + 1..].starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
-        let opens = before[..start].ends_with(['<', '/', ' ', '\n', '\t', '\r']);
-        if starts_name && after && opens && !["xml", "xmlns"].contains(&prefix) {
-            prefixes.insert(prefix);
-        }
-    }
-    let undeclared = prefixes.into_iter().filter(|p| !text.contains(&format!("xmlns:{p}")));
-    let declarations: String = undeclared.map(|p| format!(" xmlns:{p}=\"{p}\"")).collect();
-    // After the name of the first element, which no comment or declaration is.
-    let mut from = 0;
-    while let Some(open) = text[from..].find('<').map(|i| from + i) {
-        let rest = &text[open + 1..];
-        if rest.starts_with(is_name) {
-            let end = rest.find(|c| !is_name(c) && c != ':').map_or(text.len(), |i| open + 1 + i);
-            return format!("{}{declarations}{}", &text[..end], &text[end..]);
-        }
-        let close = if rest.starts_with("!--") { "-->" } else { ">" };
-        let Some(end) = rest.find(close) else { break };
-        from = open + 1 + end;
-    }
-    text.to_owned()
 }
 
 /// The text of a file of a bounded size.
@@ -124,20 +92,38 @@ fn malformed_xml(file: &Arc<str>, line: u32, found: &str) -> ImportError {
     }
 }
 
+/// Where lines start, since to count them for each element would take as long as the square of a file.
+struct Lines(Vec<usize>);
+
+impl Lines {
+    fn of(text: &str) -> Self {
+        Self(text.match_indices('\n').map(|(at, _)| at).collect())
+    }
+
+    /// The line of a byte, from 1.
+    fn at(&self, byte: usize) -> u32 {
+        self.0.partition_point(|end| *end < byte) as u32 + 1
+    }
+}
+
 fn convert(
     file: &Arc<str>,
-    document: &roxmltree::Document<'_>,
+    lines: &Lines,
     node: roxmltree::Node<'_, '_>,
     depth: usize,
 ) -> Result<Element, ImportError> {
-    let line = document.text_pos_at(node.range().start).row;
+    let line = lines.at(node.range().start);
     if depth > DEEPEST {
         return Err(malformed_xml(file, line, &format!("elements nested deeper than {DEEPEST}")));
     }
     let local = node.tag_name().name();
     let tag = match node.tag_name().namespace() {
         None => local.to_owned(),
-        Some(uri) => format!("{}:{local}", node.lookup_prefix(uri).unwrap_or("xmlns")),
+        // A namespace without a prefix is the format's own.
+        Some(uri) => match node.lookup_prefix(uri) {
+            Some(prefix) => format!("{prefix}:{local}"),
+            None => local.to_owned(),
+        },
     };
     let attributes = node
         .attributes()
@@ -150,7 +136,7 @@ fn convert(
     let children = node
         .children()
         .filter(roxmltree::Node::is_element)
-        .map(|child| convert(file, document, child, depth + 1))
+        .map(|child| convert(file, lines, child, depth + 1))
         .collect::<Result<_, _>>()?;
     let place = Place { file: file.clone(), line };
     let text = node.text().unwrap_or_default().to_owned();

@@ -122,7 +122,7 @@ impl Columns {
                 DynamicsError::Fault { state: index, joint, fault }
             }
         })?;
-        let (rnea, crba, aba) = self.reduced(robot, index, &state, &evaluation)?;
+        let Reduced { rnea, crba, aba } = self.reduced(robot, index, &state, &evaluation)?;
         Ok(StateResult {
             leaf_frames: leaf_frames(robot, &evaluation.poses),
             rnea: rnea.as_slice().to_vec(),
@@ -140,7 +140,7 @@ impl Columns {
         index: usize,
         state: &State,
         evaluation: &Evaluation,
-    ) -> Result<(DVector<f64>, DMatrix<f64>, DVector<f64>), DynamicsError> {
+    ) -> Result<Reduced, DynamicsError> {
         let n = evaluation.inverse.len();
         let mut g = DMatrix::zeros(n, self.nv);
         let mut row = 0;
@@ -163,14 +163,22 @@ impl Columns {
         let rnea = g.tr_mul(&evaluation.inverse);
         let crba = g.transpose() * &evaluation.mass_matrix * &g;
         if n == self.nv {
-            return Ok((rnea, crba, g.tr_mul(&evaluation.forward)));
+            let aba = g.tr_mul(&evaluation.forward);
+            return Ok(Reduced { rnea, crba, aba });
         }
         // h = rnea − M a
         let a = DVector::from_row_slice(&state.a);
         let excess = DVector::from_row_slice(&state.tau) - (&rnea - &crba * a);
         let factor = crba.clone().cholesky().ok_or(DynamicsError::Singular { state: index })?;
-        Ok((rnea, crba, factor.solve(&excess)))
+        Ok(Reduced { rnea, crba, aba: factor.solve(&excess) })
     }
+}
+
+/// Results in the file's order.
+struct Reduced {
+    rnea: DVector<f64>,
+    crba: DMatrix<f64>,
+    aba: DVector<f64>,
 }
 
 /// A state's numbers joint by joint, those of followers from their leaders.

@@ -27,7 +27,11 @@ fn refused(name: &str, text: &str, words: &[&str]) {
 #[test]
 fn files_that_are_no_xml() {
     refused("empty.urdf", "", &["empty.urdf:1:", "well-formed XML"]);
-    refused("truncated.urdf", "<robot name=\"r\">\n<link name=\"a\"", &["truncated.urdf:2:"]);
+    refused(
+        "truncated.urdf",
+        "<robot name=\"r\">\n<link name=\"a\"",
+        &["truncated.urdf:1:", "never closed"],
+    );
     refused(
         "open.urdf",
         "<robot name=\"r\">\n<link name=\"a\">\n</robot>",

@@ -119,33 +119,23 @@ fn orientations() {
         let z = robot.links[0].joint.origin.rotation * nalgebra::Vector3::z();
         assert!((z + nalgebra::Vector3::y()).norm() < 1e-15, "{way}: {z}");
     }
-    // Angles about axes that move along, or about fixed ones, in any order; radians if so stated.
-    for (sequence, expected) in
-        [("xyz", [0.0, 0.0, 1.0]), ("XYZ", [0.0, -1.0, 0.0]), ("zyx", [0.0, -1.0, 0.0])]
-    {
+    // Two quarter turns, about axes that move along (small letters) or fixed ones: where an axis goes.
+    let [x, y, z] = [nalgebra::Vector3::x(), nalgebra::Vector3::y(), nalgebra::Vector3::z()];
+    for (sequence, from, to) in [
+        // About x, y goes to z; about the y that has moved there, it stays.
+        ("xyz", y, z),
+        // About x, y goes to z; about the world's y, on to x.
+        ("XYZ", y, x),
+        // About z, x goes to y; about the y that has moved to −x, to −z.
+        ("zyx", x, -z),
+    ] {
         let text = format!(
             r#"<compiler angle="radian" eulerseq="{sequence}"/><worldbody>
             <body euler="{FRAC_PI_2} {FRAC_PI_2} 0"><freejoint/><geom size="1"/></body></worldbody>"#
         );
         let robot = model(&format!("euler-{sequence}.xml"), &text).robot;
-        let x = robot.links[0].joint.origin.rotation * nalgebra::Vector3::x();
-        let y = robot.links[0].joint.origin.rotation * nalgebra::Vector3::y();
-        let expected = nalgebra::Vector3::from(expected);
-        let found = if sequence == "zyx" {
-            robot.links[0].joint.origin.rotation * nalgebra::Vector3::x()
-        } else {
-            y
-        };
-        match sequence {
-            // x, then the moved y: y goes to z and stays there.
-            "xyz" => assert!((found - expected).norm() < 1e-15, "{sequence}: {found}"),
-            // x, then the world's y: y goes to z and on to x.
-            "XYZ" => {
-                assert!((found - nalgebra::Vector3::x()).norm() < 1e-15, "{sequence}: {found}")
-            }
-            // z, then the moved y: x goes to y, and about the moved y to −z.
-            _ => assert!((x + nalgebra::Vector3::z()).norm() < 1e-15, "{sequence}: {x}"),
-        }
+        let found = robot.links[0].joint.origin.rotation * from;
+        assert!((found - to).norm() < 1e-15, "{sequence}: {found}");
     }
 }
 
@@ -156,7 +146,7 @@ fn chains_frames_and_references() {
         "chain.xml",
         r#"<option gravity="0 0 -1.62"/>
            <worldbody><frame pos="0 0 1"><body name="b" pos="1 0 0"><joint name="x" type="slide" axis="1 0 0" ref="0.25"/>
-             <joint name="turn" axis="0 0 2" pos="0 1 0" ref="90"/><inertial pos="0 0 0.1" mass="2" fullinertia="1 2 3 0.1 0.2 0.3"/>
+             <joint name="turn" axis="0 0 2" pos="0 1 0" ref="90"/><inertial pos="0 0 0.1" mass="2" fullinertia="2 2.5 3 0.1 0.2 0.3"/>
              </body></frame></worldbody>"#,
     )
     .robot;
