@@ -35,7 +35,7 @@ pub fn run() -> Result<String> {
             )?;
     }
     let files = probe.read()?;
-    let test = ["test", "--release", "--package", "surefoot-robots", "--features", "real-robots"];
+    let test = ["test", "--package", "surefoot-robots", "--features", "real-robots"];
     workspace::cargo(test)
         .args(["--test", "real_robots"])
         .env("SUREFOOT_ROBOT_PYTHON", &python)
