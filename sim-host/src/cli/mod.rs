@@ -9,6 +9,8 @@ mod chart;
 mod controller;
 mod count_steps;
 mod count_ticks;
+mod dynamics;
+mod import;
 mod interrupt;
 mod list;
 mod model;
@@ -47,6 +49,10 @@ enum Command {
     CountTicks(count_ticks::Options),
     /// Advise on a method and a step for a scene and an accuracy
     Advise(advise::Options),
+    /// Import a robot from URDF or MJCF: robot.toml, and robot.rs for firmware
+    Import(import::Options),
+    /// Kinematics and dynamics of a robot for the states of a file
+    Dynamics(dynamics::Options),
     /// List scenes, integrators and robots
     List(list::Options),
 }
@@ -74,6 +80,8 @@ pub fn main() -> ExitCode {
         Some(Command::CountSteps(options)) => count_steps::count_steps(&options),
         Some(Command::CountTicks(options)) => count_ticks::count_ticks(&options),
         Some(Command::Advise(options)) => advise::advise(&options),
+        Some(Command::Import(options)) => import::run(&options),
+        Some(Command::Dynamics(options)) => dynamics::run(&options),
         Some(Command::List(options)) => list::list(&options),
     }
 }

@@ -4,6 +4,7 @@
 mod charts;
 mod documented;
 mod files;
+mod importing;
 mod mechanisms;
 mod program;
 mod reproduced;

@@ -7,6 +7,7 @@ mod documented;
 mod firmware;
 mod panic_free;
 mod record;
+mod robots;
 mod target;
 mod tests;
 
@@ -35,6 +36,8 @@ enum Stage {
     DocTests,
     /// The report's page and its replay, in a browser.
     Browser,
+    /// Robots of other projects, from Python's package index: import, and dynamics against Pinocchio and MuJoCo.
+    Robots,
     /// Features that a scene does not have execute no instruction, on the host.
     Unused,
     /// Core compiles for the target.
@@ -69,6 +72,9 @@ pub fn run(options: &Options) -> Result<()> {
     }
     if options.wants(Stage::Browser) {
         record.stage("browser", browser::run);
+    }
+    if options.wants(Stage::Robots) {
+        record.stage("robots", robots::run);
     }
     if options.wants(Stage::Unused) {
         record.stage("unused", crate::instructions::nothing_unused_runs);
