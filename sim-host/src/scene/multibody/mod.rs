@@ -11,7 +11,8 @@ pub use misdescribed::{BuildError, Misdescribed};
 
 use crate::contact::{Floor, Switching};
 use crate::multibody::JointLaw;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// Bodies, joints, and what they touch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -126,7 +127,7 @@ pub struct LoopEntry {
     pub joint: LoopJoint,
 }
 
-/// A joint that closes a loop: where it is. Its velocity is that of its bodies.
+/// A joint that closes a loop: where it is. Its velocity is that of its bodies, and may be given as zero only.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum LoopJoint {
@@ -138,11 +139,17 @@ pub enum LoopJoint {
         point_m: [f64; 3],
         /// Of any length.
         axis: [f64; 3],
+        /// rad/s
+        #[serde(default, skip_serializing)]
+        rate_rad_s: Zero,
     },
     /// Along an axis.
     Prismatic {
         /// Of any length.
         axis: [f64; 3],
+        /// m/s
+        #[serde(default, skip_serializing)]
+        rate_m_s: Zero,
     },
     /// About two axes through a point, at a right angle.
     Universal {
@@ -150,12 +157,39 @@ pub enum LoopJoint {
         point_m: [f64; 3],
         /// Fixed to the second, and to the first body.
         axes: [[f64; 3]; 2],
+        /// rad/s
+        #[serde(default, skip_serializing)]
+        rates_rad_s: Zero,
     },
     /// About a point.
     Spherical {
         /// m
         point_m: [f64; 3],
+        /// rad/s
+        #[serde(default, skip_serializing)]
+        angular_velocity_rad_s: Zero,
     },
+}
+
+/// A number, or several, that can only be zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Zero;
+
+impl<'de> Deserialize<'de> for Zero {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Numbers {
+            One(f64),
+            Several(Vec<f64>),
+        }
+        let is_zero = match Numbers::deserialize(from)? {
+            Numbers::One(x) => x == 0.0,
+            Numbers::Several(all) => all.iter().all(|x| *x == 0.0),
+        };
+        let expected = "0, or nothing: a joint that closes a loop has the rate of its bodies";
+        if is_zero { Ok(Self) } else { Err(D::Error::custom(format!("expected {expected}"))) }
+    }
 }
 
 impl From<LoopJoint> for JointEntry {
@@ -163,14 +197,14 @@ impl From<LoopJoint> for JointEntry {
     fn from(joint: LoopJoint) -> Self {
         match joint {
             LoopJoint::Fixed {} => Self::Fixed {},
-            LoopJoint::Revolute { point_m, axis } => {
+            LoopJoint::Revolute { point_m, axis, .. } => {
                 Self::Revolute { point_m, axis, rate_rad_s: 0.0 }
             }
-            LoopJoint::Prismatic { axis } => Self::Prismatic { axis, rate_m_s: 0.0 },
-            LoopJoint::Universal { point_m, axes } => {
+            LoopJoint::Prismatic { axis, .. } => Self::Prismatic { axis, rate_m_s: 0.0 },
+            LoopJoint::Universal { point_m, axes, .. } => {
                 Self::Universal { point_m, axes, rates_rad_s: [0.0; 2] }
             }
-            LoopJoint::Spherical { point_m } => {
+            LoopJoint::Spherical { point_m, .. } => {
                 Self::Spherical { point_m, angular_velocity_rad_s: [0.0; 3] }
             }
         }
