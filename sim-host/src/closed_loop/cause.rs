@@ -152,9 +152,11 @@ fn feet_off(samples: &[Sample]) -> usize {
 /// # Cost
 /// Some runs of the scene, in shorter steps; nothing for a run that has not failed.
 pub fn explain(scene: &Scene, run: &mut Run, again: &mut dyn FnMut(&Scene) -> Option<Run>) {
-    let Some(failure) = run.failure.as_mut().filter(|f| ["step", "fell"].contains(&f.kind)) else {
+    let explained = ["step", "fell", "stopped"];
+    let Some(failure) = run.failure.as_mut().filter(|f| explained.contains(&f.kind)) else {
         return;
     };
+    let is_stopped = failure.kind == "stopped";
     let mut cause = Cause::of_record(&run.samples);
     let mut left = BUDGET;
     let mut play = |scene: &Scene| {
@@ -187,7 +189,7 @@ pub fn explain(scene: &Scene, run: &mut Run, again: &mut dyn FnMut(&Scene) -> Op
             Scene { acting: Default::default(), sensing: Default::default(), ..scene.clone() };
         if !is_ideal && completes(&ideal) {
             cause.remedy = Some(Remedy::IdealHardware);
-        } else if cause.runaway.is_some() {
+        } else if cause.runaway.is_some() || is_stopped {
             let faster = PARTS.map(|parts| scene.controller.rate_hz * f64::from(parts));
             let found = faster.into_iter().find(|rate_hz| {
                 let mut faster = scene.clone();
@@ -201,7 +203,10 @@ pub fn explain(scene: &Scene, run: &mut Run, again: &mut dyn FnMut(&Scene) -> Op
     let is_known = cause.runaway.is_some()
         || cause.remedy.is_some()
         || matches!(cause.steps, StepTrial::Completes { .. });
-    if failure.kind == "step" || is_known {
+    if is_stopped && is_known {
+        // The supervisor's reason stays.
+        failure.advice = format!("{}; {}", failure.advice, cause.advice());
+    } else if failure.kind == "step" || is_known {
         failure.advice = cause.advice();
         with_hardware(failure, scene);
     }

@@ -63,9 +63,9 @@ pub(super) struct Kept {
 }
 
 /// Unknowns of steps that trials may solve for, all together.
-const BUDGET: f64 = 6e6;
+const BUDGET: f64 = 2e7;
 /// Parts that a step is made in, in trials.
-const PARTS: [u32; 13] = [2, 4, 8, 16, 20, 32, 40, 64, 100, 128, 200, 256, 512];
+const PARTS: [u32; 14] = [2, 4, 8, 16, 20, 32, 40, 64, 100, 128, 200, 256, 512, 1024];
 /// Failures within so many of the scene's steps are at the same instant.
 const SAME: f64 = 2.5;
 /// Steps of the scene beyond the instant that a trial has to make.
