@@ -169,7 +169,11 @@ fn spoilt_frames() {
         frame
     });
     // Each loss is made up for before the next: more than two in twenty ticks stop the robot.
-    let recover = |bench: &mut Bench| (0..10).for_each(|_| drop(bench.tick(|_| {})));
+    let recover = |bench: &mut Bench| {
+        for _ in 0..10 {
+            bench.tick(|_| {});
+        }
+    };
     assert_eq!(bench.tick_with_frame(|_| last.clone()).mode, Mode::Active);
     recover(&mut bench);
     bench.tick_with_frame(|frame| [&frame[..20], &[0]].concat());

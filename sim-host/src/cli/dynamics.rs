@@ -55,16 +55,10 @@ pub(super) fn run(options: &Options) -> ExitCode {
     let how = options.how.options();
     match evaluate_file(&options.robot, &options.states, &how, convention, precision) {
         Ok(results) if options.json => match serde_json::to_string(&results) {
-            Ok(text) => {
-                say(&format!("{text}\n"));
-                ExitCode::SUCCESS
-            }
+            Ok(text) => say(&format!("{text}\n"), ExitCode::SUCCESS),
             Err(error) => failed("output", &error.to_string(), true),
         },
-        Ok(results) => {
-            say(&summary(&results));
-            ExitCode::SUCCESS
-        }
+        Ok(results) => say(&summary(&results), ExitCode::SUCCESS),
         Err(DynamicsError::Robot(error)) => refused(&error, options.json),
         Err(error @ (DynamicsError::States { .. } | DynamicsError::NotUnit { .. })) => {
             bad_input(&error.to_string(), options.json)

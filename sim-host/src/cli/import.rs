@@ -1,6 +1,7 @@
 //! `surefoot import`: a URDF or MJCF file to a robot of names, and to const data for firmware.
 
-use super::{BAD_INPUT, RUN_FAILED, say};
+use super::{BAD_INPUT, RUN_FAILED, complain, say};
+use crate::written::write_text;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -118,23 +119,22 @@ pub(super) fn run(options: &Options) -> ExitCode {
         }
     }
     let paths = files.map(|(name, _)| folder.join(name).display().to_string());
-    if options.json {
-        say(&format!("{:#}\n", document(&imported, &paths)));
-    } else {
-        say(&summary(&imported, &paths));
-    }
-    ExitCode::SUCCESS
+    let said = match options.json {
+        true => format!("{:#}\n", document(&imported, &paths)),
+        false => summary(&imported, &paths),
+    };
+    say(&said, ExitCode::SUCCESS)
 }
 
 fn write(folder: &Path, name: &str, text: &str) -> Result<(), String> {
-    let path = folder.join(name);
-    std::fs::create_dir_all(folder)
-        .and_then(|()| std::fs::write(&path, text))
-        .map_err(|error| format!("{}: {error}", path.display()))
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    write_text(&folder.join(name), text)
 }
 
 /// A robot file that is refused: exit status 2.
 pub(super) fn refused(error: &ImportError, json: bool) -> ExitCode {
+    complain(format_args!("error: {error}"));
+    let status = ExitCode::from(BAD_INPUT);
     if json {
         let place = error.place();
         let document = json!({ "error": {
@@ -143,20 +143,20 @@ pub(super) fn refused(error: &ImportError, json: bool) -> ExitCode {
             "file": place.map(|place| place.file.as_ref()),
             "line": place.map(|place| place.line),
         } });
-        say(&format!("{document:#}\n"));
+        return say(&format!("{document:#}\n"), status);
     }
-    eprintln!("error: {error}");
-    ExitCode::from(BAD_INPUT)
+    status
 }
 
 /// What went wrong with good input: exit status 1.
 pub(super) fn failed(kind: &str, message: &str, json: bool) -> ExitCode {
+    complain(format_args!("error: {message}"));
+    let status = ExitCode::from(RUN_FAILED);
     if json {
         let document = json!({ "error": { "kind": kind, "message": message } });
-        say(&format!("{document:#}\n"));
+        return say(&format!("{document:#}\n"), status);
     }
-    eprintln!("error: {message}");
-    ExitCode::from(RUN_FAILED)
+    status
 }
 
 fn document(imported: &Imported, paths: &[String]) -> Value {

@@ -56,6 +56,7 @@ mod tests {
             outcome: Outcome::Completed,
             is_interrupted: false,
             failure: None,
+            cause: None,
             samples: Vec::new(),
             events: events.iter().map(event).collect(),
             steps: 0,

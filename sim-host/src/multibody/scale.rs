@@ -67,7 +67,7 @@ impl Composite {
     }
 
     /// The same seen from a point `by` farther away.
-    pub fn from_afar(&self, by: f64) -> Self {
+    pub fn seen_from(&self, by: f64) -> Self {
         let Self { mass, first, moment } = *self;
         Self { mass, first: first + mass * by, moment: moment + by * (2.0 * first + mass * by) }
     }
@@ -97,7 +97,7 @@ mod tests {
     /// A mass on the end of two arms, straight: `m (a + b)²`.
     #[test]
     fn composites_reach_to_the_ends() {
-        let body = Composite::of_body(2.0, 0.0, 0.5).from_afar(1.5);
+        let body = Composite::of_body(2.0, 0.0, 0.5).seen_from(1.5);
         assert_eq!((body.mass, body.moment), (2.0, 8.0));
     }
 

@@ -299,7 +299,7 @@ fn printed_split<T: Real>(
 
 #[test]
 fn where_nothing_binds_it_is_the_printed_split_to_the_bit() {
-    let single = BIPED.to_f32(&surefoot::model::robots::biped::TREE_F32);
+    let single = BIPED.to_f32();
     let mut rng = random(82);
     for _ in 0..100 {
         let state: RobotState<f64, 2> = random_state(&mut rng);

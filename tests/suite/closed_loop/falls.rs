@@ -56,7 +56,7 @@ impl Case {
         let what = match number % 4 {
             0 | 1 => {
                 let (force, angle) =
-                    (rng.random_range(20.0..500.0), rng.random_range(0.0..6.28_f64));
+                    (rng.random_range(20.0..500.0), rng.random_range(0.0..std::f64::consts::TAU));
                 let (at_s, duration_s) = (rng.random_range(0.1..1.5), rng.random_range(0.02..0.2));
                 let force_n =
                     [force * angle.cos(), force * angle.sin(), force * rng.random_range(-0.5..0.5)];

@@ -47,7 +47,7 @@ impl Scales {
                 weights[c] = 1.0 / inertia.sqrt();
             }
             if let Some(i) = node.inboard {
-                let seen = all[k].from_afar(node.lever.norm());
+                let seen = all[k].seen_from(node.lever.norm());
                 all[i].add(&seen);
             }
         }

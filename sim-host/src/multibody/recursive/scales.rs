@@ -73,7 +73,7 @@ impl Scales {
                 if node.kind == Kind::Prismatic {
                     by += coordinates[k].angles[0].abs();
                 }
-                let seen = all[k].from_afar(by);
+                let seen = all[k].seen_from(by);
                 all[i].add(&seen);
             }
         }
