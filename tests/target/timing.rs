@@ -1,30 +1,39 @@
 //! No state makes a tick long: random ones, nearly singular ones, and faulty ones.
 
 use crate::bench::{arm, target};
+use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use surefoot::balance::Mode;
+use surefoot::spatial::Quaternion;
 use surefoot_link::{Sensors, Torques};
 use surefoot_sim::closed_loop::firmware::Target;
 use surefoot_sim::scene::{Scene, load};
 
-/// A state near standing; the knees' angles are given.
+/// A state near standing, such as no supervisor stops; the knees' angles are given.
 fn random(random: &mut Pcg64Mcg, knees: [f32; 2]) -> Sensors {
     let mut within = |size: f32| random.random_range(-size..size);
-    let tilt = [within(0.2), within(0.2), within(0.2)];
+    let tilt = [within(0.1), within(0.1), within(0.1)];
     let scalar = (1.0 - tilt.iter().map(|x| x * x).sum::<f32>()).sqrt();
     Sensors {
         position: [within(0.3), within(0.3), 1.0 + within(0.2)],
         orientation: [scalar, tilt[0], tilt[1], tilt[2]],
-        velocity: std::array::from_fn(|_| within(2.0)),
+        velocity: std::array::from_fn(|_| within(1.0)),
         joint_angles: knees
             .map(|knee| [within(0.5), within(0.8), within(0.5), knee, within(0.5), within(0.8)]),
         joint_rates: [0, 1].map(|_| std::array::from_fn(|_| within(5.0))),
     }
 }
 
-/// The same robot one period later, as far as its encoders can tell.
+/// The same robot one period later, at the same rates.
 fn later(mut sensors: Sensors, period: f32) -> Sensors {
+    let q = Quaternion::from_array(sensors.orientation);
+    let [vx, vy, vz, wx, wy, wz] = sensors.velocity.map(|x| x * period);
+    let moved = q.rotate(Vector3::new(vx, vy, vz));
+    sensors.position = std::array::from_fn(|i| sensors.position[i] + moved[i]);
+    let turned = q.product(Quaternion::from_array([1.0, wx / 2.0, wy / 2.0, wz / 2.0])).to_array();
+    let norm = turned.iter().map(|x| x * x).sum::<f32>().sqrt();
+    sensors.orientation = turned.map(|x| x / norm);
     for (angles, rates) in sensors.joint_angles.iter_mut().zip(&sensors.joint_rates) {
         for (angle, rate) in angles.iter_mut().zip(rates) {
             *angle += period * rate;

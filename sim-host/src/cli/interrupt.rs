@@ -13,7 +13,8 @@ static WAS_ASKED: AtomicBool = AtomicBool::new(false);
 pub(super) fn watched() -> &'static AtomicBool {
     static WATCH: Once = Once::new();
     WATCH.call_once(|| {
-        let watch = ctrlc::try_set_handler(|| {
+        // Also where a shell that started it in the background had the signal ignored.
+        let watch = ctrlc::set_handler(|| {
             if WAS_ASKED.swap(true, Ordering::Relaxed) {
                 std::process::exit(i32::from(INTERRUPTED));
             }

@@ -108,12 +108,12 @@ mod tests {
         for (table, words) in [
             ("[sensing]\nencoder_counts = 15", ["sensing.encoder_counts", "15", "16 counts"]),
             ("[sensing]\nencoder_counts = -1", ["sensing.encoder_counts", "-1", "u32"]),
-            ("[sensing]\ngyroscope_noise = -1e-4", ["sensing.gyroscope_noise", "-0.0001", "zero"]),
+            ("[sensing]\ngyroscope_noise = -1e-4", ["sensing.gyroscope_noise", "-1e-4", "zero"]),
             ("[sensing]\naccelerometer_noise = inf", ["accelerometer_noise", "inf", "finite"]),
             ("[sensing]\ncorrection_s = 0.0", ["sensing.correction_s", "0.0", "above zero"]),
             ("[sensing]\ncorrection_s = nan", ["sensing.correction_s", "nan", "finite"]),
             ("[sensing]\nbits = 14", ["sensing.bits", "bits", "encoder_counts"]),
-            ("[acting]\ndelay_s = -1e-3", ["acting.delay_s", "-0.001", "0 to 1 s"]),
+            ("[acting]\ndelay_s = -1e-3", ["acting.delay_s", "-1e-3", "0 to 1 s"]),
             ("[acting]\ndelay_s = 1.5", ["acting.delay_s", "1.5", "0 to 1 s"]),
             ("[acting]\ndelay_s = nan", ["acting.delay_s", "nan", "finite"]),
             (

@@ -191,7 +191,7 @@ fn an_interrupted_run_keeps_what_there_is() {
     for (scene, signal) in [("four-bar", "INT"), ("experiment-1-welded", "TERM")] {
         let all =
             ["run", scene, "--duration", "1500", "--json", "--save", "there.json", "--out", scene];
-        let run = program(&folder, &all)
+        let mut run = program(&folder, &all)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
@@ -205,6 +205,7 @@ fn an_interrupted_run_keeps_what_there_is() {
             u64::from_str_radix(caught.trim(), 16).expect("a mask") & 2 != 0
         };
         while !listens() {
+            assert!(run.try_wait().expect("its state").is_none(), "{scene} ended by itself");
             std::thread::sleep(std::time::Duration::from_millis(5));
         }
         std::thread::sleep(std::time::Duration::from_millis(200));

@@ -81,10 +81,10 @@ fn class(instruction: &Executed) -> Result<(&'static str, u64)> {
 }
 
 /// One-cycle instructions of the integer unit.
-const INTEGER: [&str; 38] = [
+const INTEGER: [&str; 39] = [
     "adc", "add", "adr", "and", "asr", "bfc", "bfi", "bic", "clz", "cmn", "cmp", "eor", "it",
     "lsl", "lsr", "mla", "mls", "mov", "mul", "mvn", "neg", "nop", "orn", "orr", "rbit", "rev",
-    "ror", "rrx", "rsb", "sbc", "sbfx", "smull", "sub", "sxt", "teq", "tst", "u", "ssat",
+    "ror", "rrx", "rsb", "sbc", "sbfx", "smla", "smul", "sub", "sxt", "teq", "tst", "u", "ssat",
 ];
 
 /// Registers in `{r4, r5-r7}`, or `sp!, {d8, d9}`; a double one counts twice.
