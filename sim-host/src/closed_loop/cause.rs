@@ -75,7 +75,7 @@ pub enum Remedy {
 /// A torque that holds more than this many times the weight at the arm of its height is none of a balance.
 const WEIGHTS: f64 = 3.0;
 /// Parts of a step, and of a tick, in trials.
-const PARTS: [u32; 3] = [2, 4, 8];
+const PARTS: [u32; 4] = [2, 4, 8, 16];
 /// Steps that trials may make, all together.
 const BUDGET: u64 = 400_000;
 
@@ -121,7 +121,7 @@ impl Cause {
         }
         match self.remedy {
             Some(Remedy::Rate { rate_hz }) => {
-                write!(out, "; at {rate_hz} Hz the run completes (tried)")
+                write!(out, "; at a control rate of {rate_hz:.4} Hz the run completes (tried)")
             }
             Some(Remedy::IdealHardware) => {
                 write!(out, "; with ideal sensors and motors the run completes (tried)")
@@ -190,7 +190,10 @@ pub fn explain(scene: &Scene, run: &mut Run, again: &mut dyn FnMut(&Scene) -> Op
         if !is_ideal && completes(&ideal) {
             cause.remedy = Some(Remedy::IdealHardware);
         } else if cause.runaway.is_some() || is_stopped {
-            let faster = PARTS.map(|parts| scene.controller.rate_hz * f64::from(parts));
+            // A tick is a whole number of steps.
+            let step_s = scene.integrator.step_s;
+            let steps = (tick_s / step_s).round() as u32;
+            let faster = PARTS.map(|parts| 1.0 / (f64::from((steps / parts).max(1)) * step_s));
             let found = faster.into_iter().find(|rate_hz| {
                 let mut faster = scene.clone();
                 faster.controller.rate_hz = *rate_hz;

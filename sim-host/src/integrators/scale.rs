@@ -33,8 +33,9 @@ pub(super) fn constraints<D: Scalar, const N: usize, const C: usize>(
     })
 }
 
-/// Share of the largest inertia that a coordinate's is taken to have at least: one without any has forces.
-const LEAST: f64 = 1e-12;
+/// Share of the largest inertia that a coordinate's is taken to have at least: one without any where a step begins, like
+/// a quaternion's scalar, has some before it ends.
+const LEAST: f64 = 1e-2;
 
 /// `K_ii` and `E`, the largest so far.
 #[derive(Clone, Copy, Debug)]

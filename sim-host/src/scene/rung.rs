@@ -58,7 +58,8 @@ pub struct Rung {
 }
 
 /// How far the lumped model's central body strays from the full one's, m: at most 3.9e-6 m (and 6e-5 rad) in the
-/// built-in scenes and both readings of the first instant, on rubber, with a margin. A test holds them to it;
+/// built-in scenes and both readings of the first instant, on rubber, under the bare tick, with a margin (under the
+/// supervisor, whose doubts may fall on other ticks, 1.4e-5 m). A test holds them to it;
 /// `surefoot chart parsimony --scene` measures it in others.
 pub const LUMPED_DEVIATION_M: f64 = 1e-5;
 /// Hips that start bent by more than this, degrees, are left to hinges, which know no gimbal lock at 90°.

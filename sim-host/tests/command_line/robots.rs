@@ -73,8 +73,13 @@ fn a_run_that_fails_says_why() {
             "controller-fault",
             vec!["leg 0", "straight knee"],
         ),
-        (too_long.to_vec(), "stopped", "stopped", vec!["supervisor", "limit of stability"]),
-        ([&too_long[..], &bare].concat(), "failed", "step", vec!["velocity", "limit of stability"]),
+        (too_long.to_vec(), "stopped", "stopped", vec!["supervisor", "a shorter step: with"]),
+        (
+            [&too_long[..], &bare].concat(),
+            "failed",
+            "step",
+            vec!["velocity", "a shorter step: with"],
+        ),
     ] {
         let (status, stdout, stderr) = said(&surefoot(&folder, &arguments));
         assert_eq!(status, Some(1), "{arguments:?}: {stderr}");

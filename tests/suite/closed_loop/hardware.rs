@@ -205,7 +205,7 @@ fn too_long_a_delay_is_a_failure_with_its_reason() {
     let failure = run.failure.expect("nothing balances that late");
     println!("{failure:?}");
     assert_eq!((run.outcome, failure.kind), (Outcome::Stopped, "stopped"), "{failure:?}");
-    assert!(failure.time_s > 0.03 && !failure.place.is_empty());
+    assert!(failure.time_s > 0.0 && !failure.place.is_empty());
     assert!(failure.advice.contains("shorter delay"), "{failure:?}");
     for sample in &run.samples {
         let mut numbers = sample.positions.iter().chain(&sample.torques);

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use std::num::NonZeroUsize;
 use surefoot::spatial::Quaternion;
-use surefoot_sim::closed_loop::{Outcome, Run, Scalar, controller, run};
+use surefoot_sim::closed_loop::{Outcome, Run, Scalar, bare_controller, run};
 use surefoot_sim::integrators::Method;
 use surefoot_sim::multibody::Stops;
 use surefoot_sim::parsimony::Rung;
@@ -24,7 +24,7 @@ const SCENES: [&str; 5] = [
 fn play(scene: &Scene, model: ModelChoice) -> Run {
     let scene = Scene { model, ..scene.clone() };
     scene.check().expect("a valid scene");
-    let run = run(&scene, controller(&scene, Scalar::F64).as_mut(), &mut |_| {});
+    let run = run(&scene, bare_controller(&scene, Scalar::F64).as_mut(), &mut |_| {});
     assert_eq!(run.outcome, Outcome::Balanced, "{:?}", run.failure);
     run
 }

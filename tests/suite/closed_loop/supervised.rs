@@ -85,5 +85,5 @@ fn far_too_coarse_encoders_end_in_a_failure_with_its_reason() {
     let failure = run.failure.expect("rates in steps of 50 rad/s are none");
     println!("{failure:?}");
     assert!(failure.kind == "stopped", "{failure:?}");
-    assert!(failure.advice.contains("better sensors"));
+    assert!(failure.advice.contains("perhaps better ones"));
 }
