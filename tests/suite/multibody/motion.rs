@@ -147,7 +147,7 @@ fn energy_of_a_chain_stays_in_a_narrow_band() {
 }
 
 /// Slopes of the energy over 1e5 steps, of eight chains that have forgotten their starts: their mean is
-/// zero within its standard error.
+/// zero within what its standard error allows.
 #[test]
 fn energy_of_chains_has_no_slope() {
     let slopes: Vec<f64> = std::thread::scope(|scope| {
@@ -165,7 +165,8 @@ fn energy_of_chains_has_no_slope() {
     let variance = slopes.iter().map(|s| (s - mean).powi(2)).sum::<f64>() / (n - 1.0);
     let error = (variance / n).sqrt();
     println!("slope {mean:.1e} ± {error:.1e} J/s, of {slopes:?}");
-    assert!(mean.abs() < 2.0 * error, "{mean} ± {error}");
+    // Of unbiased slopes the mean of eight is within this in 99 of 100 cases (Student, seven degrees of freedom).
+    assert!(mean.abs() < 3.5 * error, "{mean} ± {error}");
     // What is asked for matters: over the run, less than a thousandth of the band's limit.
     assert!(error < 1e-5, "{error}");
 }

@@ -1,6 +1,6 @@
 //! What precision, rate, and things left out do to the controller.
 
-use surefoot_sim::closed_loop::{Approximation, Scalar, approximate_controller, controller};
+use surefoot_sim::closed_loop::{Approximation, Scalar, approximate_controller, bare_controller};
 use surefoot_sim::plant::PlantState;
 use surefoot_sim::precision::{ControllerForm, ControllerPrecision, controller_precision};
 use surefoot_sim::scene::load;
@@ -72,7 +72,7 @@ fn approximations_are_exact_where_nothing_is_left_out() {
     for x in &mut moving.positions[7..] {
         *x += 0.05;
     }
-    let mut exact = controller(&scene, Scalar::F64);
+    let mut exact = bare_controller(&scene, Scalar::F64);
     let mut apart = |other: &[f64; 12], state: &PlantState| {
         let torques = exact.tick(state).expect("a regular state").torques;
         torques.iter().zip(other).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()))
