@@ -52,7 +52,7 @@ fn attempt(scene: &Scene, least_duration_s: f64, method: Method, h: f64) -> Verd
     };
     (scene.integrator.name, scene.integrator.step_s) = (method, step_s);
     scene.duration_s = scene.duration_s.max(criterion.least_duration_s);
-    let (run, fault) = play(&scene, Loop::Supervised);
+    let (run, fault) = play(&scene, Loop::Bare);
     let time_s = run.samples.last().map_or(0.0, |sample| sample.time_s);
     match (Ending { scene: &scene, run: &run, fault }).manner(&criterion) {
         None => Verdict::Works,
@@ -111,7 +111,7 @@ fn forecast(scene: &Scene, least_duration_s: f64, method: Method) -> Forecast {
 /// How fast bodies turn in the run of a scene.
 fn turning(scene: &Scene) -> StepForecast {
     let mut all = StepForecast::default();
-    let (run, _) = play(scene, Loop::Supervised);
+    let (run, _) = play(scene, Loop::Bare);
     for sample in run.samples.iter().step_by(EVERY) {
         let here = states_of_tree(&TREE, &sample.positions, &sample.velocities).ok();
         let forecast = here.and_then(|(states, rates)| {

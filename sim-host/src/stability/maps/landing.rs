@@ -23,7 +23,7 @@ pub fn should_land(scene: &Scene) -> bool {
     }
     let mut beginning = scene.clone();
     beginning.duration_s = BEGINNING_S;
-    let (run, _) = play(&beginning, Loop::Supervised);
+    let (run, _) = play(&beginning, Loop::Bare);
     let last_s = 0.5 * BEGINNING_S;
     run.failure.is_none()
         && run.progress.is_none_or(|progress| progress.split_steps <= MOST_SPLITS)

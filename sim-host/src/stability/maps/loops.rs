@@ -58,7 +58,7 @@ const NOTE: &str = "A cell works if the robot stands within 10 mm and 1° of its
 fn trial(scene: &Scene, quantity: Quantity) -> Option<Trial<'_>> {
     let criterion = Criterion::default();
     let footing = *Footing::of(scene).first()?;
-    Some(Trial { scene, quantity, footing, control: Loop::Supervised, criterion })
+    Some(Trial { scene, quantity, footing, control: Loop::Bare, criterion })
 }
 
 /// Where on an axis of a quantity a scene's edge should be.
