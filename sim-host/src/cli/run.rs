@@ -275,7 +275,7 @@ fn simulate(scene: &Scene, options: &Options, from: Option<&SavedRun>) -> Result
     let mut follow = Until { stop: interrupt::watched(), follower };
     let mut run = closed_loop::run_from(scene, controller.as_mut(), from, &mut follow);
     // A run that goes on, and a controller that runs elsewhere, cannot be played again from the start.
-    if from.is_none() && options.controller.place == Place::Host {
+    if from.is_none() && options.controller.place != Place::Firmware {
         closed_loop::explain(scene, &mut run, &mut |scene| {
             let mut controller = options.controller.controller(scene).ok()?;
             Some(closed_loop::run(scene, controller.as_mut(), &mut |_| {}))

@@ -23,7 +23,7 @@ fn limits_are_charted_and_taken_up_again() {
     assert_eq!(limit["manner"], "tip");
     let (status, second, messages) = chart(&[]);
     assert_eq!((status, &second), (Some(0), &first));
-    assert!(messages.contains("1 of 1 limits taken up"), "{messages}");
+    assert!(messages.contains("2 of 2 limits taken up"), "{messages}");
 
     for (arguments, word) in [
         (&["chart", "stability", "--scene", "chain"], "nobody controls"),
