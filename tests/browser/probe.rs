@@ -30,6 +30,7 @@ impl Findings {
 }
 
 #[test]
+#[ignore = "needs Chromium: `cargo xtask test --only browser`"]
 fn no_width_makes_the_page_scroll_sideways() {
     for page in [pages::experiment_1(), pages::with_a_block()] {
         for width in [320, 390, 768, 1280] {
@@ -42,6 +43,7 @@ fn no_width_makes_the_page_scroll_sideways() {
 }
 
 #[test]
+#[ignore = "needs Chromium: `cargo xtask test --only browser`"]
 fn keys_drags_and_the_address_move_the_replay() {
     let findings = Findings::of(pages::with_a_block(), 800);
     assert_eq!(findings.number("start"), 0.0);

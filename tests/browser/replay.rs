@@ -7,6 +7,7 @@ use crate::picture::{is_block, is_body};
 const WINDOW: (u32, u32) = (1280, 900);
 
 #[test]
+#[ignore = "needs Chromium: `cargo xtask test --only browser`"]
 fn the_robot_is_seen_and_moves() {
     let page = pages::experiment_1();
     let at = |time: &str| screenshot(page, &format!("#t={time}"), WINDOW);
@@ -25,6 +26,7 @@ fn the_robot_is_seen_and_moves() {
 }
 
 #[test]
+#[ignore = "needs Chromium: `cargo xtask test --only browser`"]
 fn a_block_is_seen_where_it_flies() {
     let page = pages::with_a_block();
     let block = |time: &str| screenshot(page, &format!("#t={time}"), WINDOW).count(is_block);

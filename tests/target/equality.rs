@@ -59,16 +59,19 @@ fn plays_equally(name: &str) {
 }
 
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn experiment_1_is_the_same_to_the_last_bit() {
     plays_equally("experiment-1");
 }
 
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn experiment_2_is_the_same_to_the_last_bit() {
     plays_equally("experiment-2");
 }
 
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn twenty_seconds_of_pushes_are_the_same_to_the_last_bit() {
     plays_equally("experiment-1-pushes");
 }
@@ -76,6 +79,7 @@ fn twenty_seconds_of_pushes_are_the_same_to_the_last_bit() {
 /// Smaller soles, which are hit harder at the start, do not stop the target; a floor without friction does,
 /// and it brakes as the host does.
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn supervisors_are_the_same_to_the_last_bit() {
     for (name, sole, friction, is_stopped) in [
         ("experiment-1", Outline::R, 0.3, false),
@@ -99,6 +103,7 @@ fn supervisors_are_the_same_to_the_last_bit() {
 
 /// The emulator's instruction clock repeats.
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn a_second_run_costs_the_same() {
     let run = || -> Vec<Torques> {
         let mut bench = crate::bench::Bench::new(target());

@@ -69,6 +69,7 @@ fn stops_at(spoil: impl Fn(&mut Sensors) + Copy) -> StopReason {
 }
 
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn numbers_that_are_none() {
     for (bad, joint) in [(f32::NAN, 0), (f32::INFINITY, 3), (f32::NEG_INFINITY, 5)] {
         let encoder = StopReason::Encoder { leg: 1, joint };
@@ -88,6 +89,7 @@ fn numbers_that_are_none() {
 }
 
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn numbers_out_of_range() {
     let reason = stops_at(|sensors| sensors.joint_angles[0][2] = 1e30);
     assert_eq!(reason, StopReason::Encoder { leg: 0, joint: 2 });
@@ -112,6 +114,7 @@ fn numbers_out_of_range() {
 
 /// An encoder that stands still while its joint moves: the angle alone, and angle and rate.
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn a_frozen_encoder() {
     let mut bench = Bench::after(MIDDLE);
     let frozen = bench.sensors();
@@ -146,6 +149,7 @@ fn a_frozen_encoder() {
 
 /// One lost measurement is bridged by holding the torques; a second one stops the robot.
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn lost_frames() {
     let reason = stops(Bench::after(MIDDLE), |bench| bench.tick_with_frame(|_| vec![0]));
     assert_eq!(reason, StopReason::Stale);
@@ -161,6 +165,7 @@ fn lost_frames() {
 
 /// Frames cut short, changed, and sent twice are no measurements, and are counted.
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn spoilt_frames() {
     let mut bench = Bench::after(MIDDLE);
     let mut last = Vec::new();
@@ -196,6 +201,7 @@ fn spoilt_frames() {
 }
 
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn an_overrun() {
     let mut bench = Bench::after(MIDDLE);
     // 3 ms more than a tick takes, of the 2 ms that it has.
@@ -215,6 +221,7 @@ fn an_overrun() {
 /// Power fails in the middle of a run: after the reset torques are zero until someone arms the robot,
 /// and the log knows what happened, if the memory has kept it.
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn a_brown_out() {
     for (injection, is_kept) in [(Injection::Reset, true), (Injection::ResetAndForget, false)] {
         let mut bench = Bench::after(MIDDLE);
@@ -253,6 +260,7 @@ fn a_brown_out() {
 /// The program ends in the middle of a run, of a panic, a hard fault, and an interrupt that nothing
 /// handles: it is reset, torques are zero, and the log knows of what.
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn crashes() {
     let mut bench = Bench::after(MIDDLE);
     let scene = bench.scene.clone();
@@ -287,6 +295,7 @@ fn crashes() {
 
 /// Frames of another session: the first is no measurement, the second is one.
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn a_host_that_begins_anew() {
     let mut bench = Bench::after(MIDDLE);
     let mut other = Sender::new(7);
@@ -306,6 +315,7 @@ fn a_host_that_begins_anew() {
 
 /// Orders with numbers that make no sense, or at the wrong time, are refused, and change nothing.
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn orders_that_make_no_sense() {
     use surefoot_link::Acknowledged::{Busy, Invalid, Limit, TooFast, TooSlow};
     use surefoot_link::{BAUD, Pacing, shortest_period_us};

@@ -16,6 +16,7 @@ fn play(image: &str) -> (Vec<Torques>, u64) {
 /// One image logs nothing, the other every tick in full: the torques are the same, and costs and
 /// latencies within 1 %.
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn a_tick_costs_the_same_with_every_message_logged() {
     let (silent, nothing) = play("silent");
     let (logging, bytes) = play("emulation");

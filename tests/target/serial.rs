@@ -56,6 +56,7 @@ pub fn connect(port: &str) -> Target {
 }
 
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn the_uart_carries_the_same_bits() {
     let (_emulator, port) = OverUart::start("emulation");
     let mut over_uart = Bench::new(connect(&port));
@@ -74,6 +75,7 @@ fn the_uart_carries_the_same_bits() {
 /// On its own timer, with every tick logged: none is late, none overruns; and when the host falls
 /// silent, the robot stops. An emulated UART is no match for 1 kHz, so that the period is longer here.
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn a_free_running_target_keeps_its_deadline_and_stops_without_its_host() {
     let scene = load("experiment-1").expect("built in");
     let mut settings = settings(&scene);

@@ -50,6 +50,7 @@ fn second_tick(target: &mut Target, scene: &Scene, first: &Sensors, second: &Sen
 }
 
 #[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn no_state_makes_a_tick_long() {
     let scene = load("experiment-1").expect("built in");
     let period = (1.0 / scene.controller.rate_hz) as f32;

@@ -17,6 +17,13 @@ pub fn cargo<A: Into<OsString>>(arguments: impl IntoIterator<Item = A>) -> Step 
     Step::new("cargo", arguments)
 }
 
+/// The tests of one file that wait, ignored, for what a stage provides. They are built with the whole
+/// workspace, as all other tests are: a choice of packages would choose other features of what they
+/// depend on, and compile everything again.
+pub fn ignored_tests(file: &str) -> Step {
+    cargo(["test", "--workspace", "--test", file, "--", "--ignored"])
+}
+
 /// The compiler that cargo uses here unless told otherwise.
 pub fn rustc<A: Into<OsString>>(arguments: impl IntoIterator<Item = A>) -> Step {
     Step::new(env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()), arguments)

@@ -137,6 +137,11 @@ pub fn advise(
         return Err(AdviceError::Unsure { problem, apart, accuracy });
     }
     let asked: Vec<&Contender> = problem.contenders.iter().filter(|c| among.asks(c)).collect();
+    let effort = &match among {
+        // One alone may work as much as all.
+        Among::Only(_) => effort.times(problem.contenders.len() as u64),
+        Among::All | Among::Run => *effort,
+    };
     let mut curves: Vec<Curve> =
         asked.iter().map(|contender| sweep(problem, contender, &exact, effort)).collect();
     let all = foretold(&asked, &mut curves, accuracy);

@@ -23,6 +23,11 @@ impl Effort {
     pub const CHART: Self = Self { most_evaluations: 100_000, repeats: 5, timed_s: 0.05 };
     /// That of an advice.
     pub const ADVICE: Self = Self { most_evaluations: 40_000, repeats: 5, timed_s: 0.02 };
+
+    /// Runs of so many times the work.
+    pub(crate) fn times(self, factor: u64) -> Self {
+        Self { most_evaluations: self.most_evaluations.saturating_mul(factor), ..self }
+    }
 }
 
 /// A method's measurements on a problem.

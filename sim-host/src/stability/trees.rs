@@ -4,7 +4,7 @@
 //! springs, dampers and floor are implicit and limit nothing but accuracy; weight enters a step like forces
 //! do in Verlet's method, so that its fastest swing grows beyond `Ω h = 2`.
 
-use super::forecast::{Change, FEW_STEPS, Forecast, Probe, SHARE};
+use super::forecast::{Change, FEW_STEPS, Forecast, Probe, SHARE, SHARE_OF_LOSSES};
 use super::problem::Problem;
 use super::verdict::{Bounds, FailureKind, Verdict};
 use crate::contact::Floor;
@@ -187,7 +187,7 @@ impl TreeMotion {
             step: &step,
             has_modified_energy: true,
             most_steps: FEW_STEPS,
-            share: SHARE,
+            share: if watched.bounds.dissipates { SHARE_OF_LOSSES } else { SHARE },
             unstable_s: watched.unstable_s,
             range_s: RANGE_S,
         };

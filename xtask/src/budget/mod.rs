@@ -139,10 +139,8 @@ pub fn measure(arm: &ArmToolchain) -> Result<Report> {
     let budget = *budget.with_context(|| format!("{} has no table [{OTHER}]", path.display()))?;
 
     let trace = workspace::root().join("target/firmware/trace.log");
-    let cargo = ["run", "--release", "--quiet", "--package", "surefoot-tests"];
-    let example = ["--features", "target", "--example", "budget", "--"];
-    let document =
-        workspace::cargo(cargo).args(example).args([trace.as_os_str()]).run_and_read()?;
+    let run = ["run", "--release", "--quiet", "--example", "budget", "--"];
+    let document = workspace::cargo(run).args([trace.as_os_str()]).run_and_read()?;
     let measured: Measured = serde_json::from_str(&document).context("the example's document")?;
 
     let contents = std::fs::read(Variant::Emulation.path())?;

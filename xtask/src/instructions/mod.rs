@@ -111,7 +111,7 @@ pub(crate) fn provide_valgrind() -> Result<String> {
 /// # Returns
 /// The path of the program whose instructions are counted.
 fn build() -> Result<PathBuf> {
-    let build = ["build", "--release", "--package", "surefoot-tests", "--example", "instructions"];
+    let build = ["build", "--release", "--example", "instructions"];
     let executables = workspace::executables(workspace::cargo(build), [])?;
     executables.into_iter().next().context("cargo has built no program")
 }

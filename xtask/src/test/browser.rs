@@ -7,8 +7,7 @@ use anyhow::{Context, Result};
 /// Runs the tests that look at the page in Chromium, without a window.
 pub fn run() -> Result<String> {
     let browser = provide_browser()?;
-    let test = ["test", "--package", "surefoot-tests", "--features", "browser"];
-    workspace::cargo(test).args(["--test", "browser"]).run()?;
+    workspace::ignored_tests("browser").run()?;
     Ok(format!("report and replay in {browser}"))
 }
 

@@ -9,8 +9,7 @@ use anyhow::Result;
 pub fn run(arm: &ArmToolchain) -> Result<String> {
     let emulator = emulator::provide()?;
     firmware::build(arm)?;
-    let test = ["test", "--release", "--package", "surefoot-tests", "--features", "target"];
-    workspace::cargo(test).args(["--test", "target"]).run()?;
+    workspace::ignored_tests("target").run()?;
     documented::run("firmware")?;
     Ok(format!("firmware in {emulator}"))
 }

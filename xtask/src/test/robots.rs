@@ -35,9 +35,7 @@ pub fn run() -> Result<String> {
             )?;
     }
     let files = probe.read()?;
-    let test = ["test", "--package", "surefoot-robots", "--features", "real-robots"];
-    workspace::cargo(test)
-        .args(["--test", "real_robots"])
+    workspace::ignored_tests("real_robots")
         .env("SUREFOOT_ROBOT_PYTHON", &python)
         .env("SUREFOOT_ROBOT_FILES", files.trim())
         .run()

@@ -1,8 +1,8 @@
 //! Trees whose size is known when a file is read.
 //!
 //! Core's algorithms are compiled for numbers of bodies, coordinates and velocities. Here they are compiled
-//! for a few sizes, and a robot takes the smallest that it fits: the rest is filled with bodies of their own
-//! on the world, at rest, which share no number with the robot's.
+//! for two sizes, as each takes long to compile, and a robot takes the smaller that it fits: the rest is
+//! filled with bodies of their own on the world, at rest, which share no number with the robot's.
 
 use nalgebra::DMatrix;
 use surefoot::Real;
@@ -53,7 +53,7 @@ pub(super) struct Size {
     pub quaternions: usize,
 }
 
-/// Most velocities, and joints with a quaternion, of the sizes below.
+/// Velocities at most, whatever the joints.
 pub(super) const MOST: usize = 128;
 
 /// The algorithms for a tree of any size up to [`MOST`].
@@ -66,6 +66,9 @@ pub(super) fn compile(
     gravity: [f64; 3],
     precision: Precision,
 ) -> Result<Evaluate, NoTree> {
+    if size.velocities > MOST {
+        return Err(NoTree::TooLarge);
+    }
     // Bodies, coordinates, velocities; the difference is how many quaternions fit.
     macro_rules! smallest {
         ($(($n:literal, $nq:literal)),* $(,)?) => {
@@ -74,17 +77,7 @@ pub(super) fn compile(
             })*
         };
     }
-    smallest!(
-        (16, 16),
-        (16, 17),
-        (16, 20),
-        (48, 48),
-        (48, 49),
-        (48, 52),
-        (128, 128),
-        (128, 129),
-        (128, 136),
-    );
+    smallest!((48, 52), (160, 168));
     Err(NoTree::TooLarge)
 }
 

@@ -30,6 +30,7 @@ pub const fn efforts() -> usize { g1::EFFORTS.len() + g1::RATES.len() + g1::RANG
 #[cfg(test)]
 mod tests {
     #[test]
+#[ignore = "needs robot files: `cargo xtask test --only robots`"]
     fn masses() {
         assert!((crate::g1::TREE.mass() - G1_MASS).abs() < 1e-12);
         assert!((crate::panda::TREE.mass() - PANDA_MASS).abs() < 1e-12);
@@ -39,6 +40,7 @@ mod tests {
 "#;
 
 #[test]
+#[ignore = "needs robot files: `cargo xtask test --only robots`"]
 fn firmware_takes_the_robots() {
     let feet = ["left_ankle_roll_link", "right_ankle_roll_link"].map(str::to_owned).to_vec();
     let legged = Options { feet, legs_only: true, ..Options::default() };

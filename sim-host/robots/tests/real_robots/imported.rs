@@ -53,6 +53,7 @@ fn row(path: &Path) -> String {
 
 /// `SUREFOOT_BLESS=1` writes the table anew.
 #[test]
+#[ignore = "needs robot files: `cargo xtask test --only robots`"]
 fn every_urdf_is_imported_or_refused_as_documented() {
     let files = all();
     assert_eq!(files.len(), 69, "all of the package's files");
@@ -71,6 +72,7 @@ fn every_urdf_is_imported_or_refused_as_documented() {
 
 /// Feet of robots that stand: how many points each has, and how far the outermost are apart.
 #[test]
+#[ignore = "needs robot files: `cargo xtask test --only robots`"]
 fn feet_have_the_soles_of_their_shapes() {
     for (urdf, feet, points, length, legs_found) in [
         // Four spheres.

@@ -58,6 +58,7 @@ fn states_of(models: &[PathBuf], folder: &Path) -> Vec<PathBuf> {
 }
 
 #[test]
+#[ignore = "needs robot files: `cargo xtask test --only robots`"]
 fn models_meet_mujoco() {
     let models = models();
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("mujoco");
@@ -83,6 +84,7 @@ fn models_meet_mujoco() {
 }
 
 #[test]
+#[ignore = "needs robot files: `cargo xtask test --only robots`"]
 fn what_is_refused_says_why() {
     for (model, words) in REFUSED.iter().zip(["inertia from a mesh", "no link of it moves"]) {
         let error = surefoot_robots::import(&packages().join(model), &Options::default());

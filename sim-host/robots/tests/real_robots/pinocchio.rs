@@ -33,12 +33,14 @@ fn check(precision: Precision, tolerance: impl Fn(f64) -> f64) {
 
 /// Measured: below 1.5e-15 of the largest number of each result (aba of Talos 2.2e-16).
 #[test]
+#[ignore = "needs robot files: `cargo xtask test --only robots`"]
 fn double_precision_meets_pinocchio() {
     check(Precision::F64, |_| 1e-14);
 }
 
 /// Measured: below 7e-7, whatever the condition.
 #[test]
+#[ignore = "needs robot files: `cargo xtask test --only robots`"]
 fn single_precision_meets_pinocchio() {
     check(Precision::F32, |_| 3e-6);
 }

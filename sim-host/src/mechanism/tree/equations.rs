@@ -1,7 +1,9 @@
 //! Bodies and joints as a tree of `core`, for methods on the differential equations of joint coordinates.
 //!
-//! A tree's sizes are known when it is compiled. Here are those of serial and branching trees up to
-//! [`MOST_LINKS`] bodies, all on joints of one coordinate, the first perhaps afloat.
+//! A tree's sizes are known when it is compiled, and each takes seconds to compile. Here are those of the
+//! scenes as shipped and a few between, up to [`MOST_LINKS`] bodies, all on joints of one coordinate, the
+//! first perhaps afloat. Another tree takes the next larger size: the rest of it are bodies that slide on
+//! the world, at rest, and share no number with the tree's own.
 
 use crate::multibody::{BodyState, JointLaw, states_of_tree};
 use surefoot::dynamics::{DynamicsFault, forward_dynamics, joint_poses, position_rates};
@@ -71,10 +73,17 @@ pub(super) struct Law {
 
 struct Sized<const N: usize, const NQ: usize, const NV: usize> {
     tree: Tree<f64, N, NQ, NV>,
-    positions: [f64; NQ],
-    velocities: [f64; NV],
+    /// Bodies that are the tree's own.
+    bodies: usize,
+    positions: Vec<f64>,
+    velocities: Vec<f64>,
     torques: [f64; NV],
     laws: Vec<Law>,
+}
+
+/// Its own coordinates, and those of the bodies that fill the tree.
+fn filled<const M: usize>(own: &[f64]) -> [f64; M] {
+    std::array::from_fn(|i| own.get(i).copied().unwrap_or_default())
 }
 
 impl<const N: usize, const NQ: usize, const NV: usize> Sized<N, NQ, NV> {
@@ -89,7 +98,7 @@ impl<const N: usize, const NQ: usize, const NV: usize> Sized<N, NQ, NV> {
 
 impl<const N: usize, const NQ: usize, const NV: usize> TreeModel for Sized<N, NQ, NV> {
     fn start(&self) -> (Vec<f64>, Vec<f64>) {
-        (self.positions.to_vec(), self.velocities.to_vec())
+        (self.positions.clone(), self.velocities.clone())
     }
 
     fn rates(
@@ -98,8 +107,7 @@ impl<const N: usize, const NQ: usize, const NV: usize> TreeModel for Sized<N, NQ
         velocities: &[f64],
         rates: Rates<'_>,
     ) -> Result<(), DynamicsFault> {
-        let q: [f64; NQ] = std::array::from_fn(|i| positions[i]);
-        let v: [f64; NV] = std::array::from_fn(|i| velocities[i]);
+        let (q, v) = (filled::<NQ>(positions), filled::<NV>(velocities));
         let mut torques = self.torques;
         for held in &self.laws {
             let Law { column, law, .. } = held;
@@ -108,15 +116,17 @@ impl<const N: usize, const NQ: usize, const NV: usize> TreeModel for Sized<N, NQ
         }
         let poses = joint_poses(&self.tree, &q)?;
         let a = forward_dynamics(&self.tree, &poses, &v, &torques, None)?;
-        rates.positions.copy_from_slice(&position_rates(&self.tree, &q, &v));
-        rates.velocities.copy_from_slice(&a);
+        for (to, from) in
+            [(rates.positions, &position_rates(&self.tree, &q, &v)[..]), (rates.velocities, &a[..])]
+        {
+            to.copy_from_slice(&from[..to.len()]);
+        }
         Ok(())
     }
 
     fn position_rates(&self, positions: &[f64], velocities: &[f64]) -> Vec<f64> {
-        let q: [f64; NQ] = std::array::from_fn(|i| positions[i]);
-        let v: [f64; NV] = std::array::from_fn(|i| velocities[i]);
-        position_rates(&self.tree, &q, &v).to_vec()
+        let (q, v) = (filled::<NQ>(positions), filled::<NV>(velocities));
+        position_rates(&self.tree, &q, &v)[..positions.len()].to_vec()
     }
 
     fn bodies(
@@ -124,9 +134,11 @@ impl<const N: usize, const NQ: usize, const NV: usize> TreeModel for Sized<N, NQ
         positions: &[f64],
         velocities: &[f64],
     ) -> Result<(Vec<BodyState>, Vec<BodyState>), DynamicsFault> {
-        let q: [f64; NQ] = std::array::from_fn(|i| positions[i]);
-        let v: [f64; NV] = std::array::from_fn(|i| velocities[i]);
-        states_of_tree(&self.tree, &q, &v)
+        let (q, v) = (filled::<NQ>(positions), filled::<NV>(velocities));
+        let (mut states, mut rates) = states_of_tree(&self.tree, &q, &v)?;
+        states.truncate(self.bodies);
+        rates.truncate(self.bodies);
+        Ok((states, rates))
     }
 
     fn angle(&self, link: usize, positions: &[f64]) -> f64 {
@@ -150,55 +162,41 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    /// The equations, of their size; none for a size that is not compiled.
+    /// The equations, of the least size that holds them; none for a tree that is larger than all.
     pub fn sized(self, is_afloat: bool) -> Option<Box<dyn TreeModel>> {
-        macro_rules! choose {
-            ($(($n:literal, $nq:literal, $nv:literal, $afloat:literal)),*) => {
+        macro_rules! smallest {
+            ($(($n:literal, $nq:literal, $nv:literal, $afloat:literal)),* $(,)?) => {
                 match (self.links.len(), is_afloat) {
-                    $(($n, $afloat) => self.of_size::<$n, $nq, $nv>(),)*
+                    $((..=$n, $afloat) => self.of_size::<$n, $nq, $nv>(),)*
                     _ => None,
                 }
             };
         }
-        choose!(
+        smallest!(
             (1, 1, 1, false),
             (2, 2, 2, false),
             (3, 3, 3, false),
-            (4, 4, 4, false),
             (5, 5, 5, false),
-            (6, 6, 6, false),
-            (7, 7, 7, false),
-            (8, 8, 8, false),
-            (9, 9, 9, false),
             (10, 10, 10, false),
-            (11, 11, 11, false),
-            (12, 12, 12, false),
             (13, 13, 13, false),
             (1, 7, 6, true),
-            (2, 8, 7, true),
-            (3, 9, 8, true),
             (4, 10, 9, true),
-            (5, 11, 10, true),
-            (6, 12, 11, true),
-            (7, 13, 12, true),
-            (8, 14, 13, true),
-            (9, 15, 14, true),
-            (10, 16, 15, true),
-            (11, 17, 16, true),
-            (12, 18, 17, true),
-            (13, 19, 18, true)
+            (13, 19, 18, true),
         )
     }
 
     fn of_size<const N: usize, const NQ: usize, const NV: usize>(
         self,
     ) -> Option<Box<dyn TreeModel>> {
-        let tree = Tree::try_new(<[Link; N]>::try_from(self.links).ok()?).ok()?;
+        let fill = Link::prismatic(0, [1.0, 0.0, 0.0]).body(1.0, [1.0; 3], [0.0; 3]);
+        let links = std::array::from_fn(|k| self.links.get(k).copied().unwrap_or(fill));
+        let tree = Tree::try_new(links).ok()?;
         Some(Box::new(Sized::<N, NQ, NV> {
             tree: tree.with_gravity([0.0, 0.0, -self.gravity]),
-            positions: self.positions.try_into().ok()?,
-            velocities: self.velocities.try_into().ok()?,
-            torques: self.torques.try_into().ok()?,
+            bodies: self.links.len(),
+            positions: self.positions,
+            velocities: self.velocities,
+            torques: filled(&self.torques),
             laws: self.laws,
         }))
     }
