@@ -288,6 +288,30 @@ fn doubtful_measurements_act_a_little() {
     assert_eq!(stop, Some((50 + ticks, StopReason::Doubtful)));
 }
 
+/// A hop is borne; a flight is not, though the body is above where it stood: with `free_fall_s` of 0.1 s at
+/// the tick after.
+#[test]
+fn flights_are_told_from_hops() {
+    let thrown = |tick: u32| {
+        let time = PERIOD * f64::from(tick);
+        let mut state = crouch::<f64>();
+        state.velocity.linear.z = 1.2 - 9.81 * time;
+        state.position.z += 1.2 * time - 0.5 * 9.81 * time * time;
+        state
+    };
+    // The first tick has none before it.
+    let ticks = (biped::LIMITS.thresholds.free_fall_s / PERIOD) as u32;
+    assert_eq!(until_stopped(|tick| Some(thrown(tick))), Some((ticks, StopReason::FreeFall)));
+    assert!(thrown(ticks).position.z > crouch::<f64>().position.z);
+    let hop = |tick: u32| {
+        let mut state = thrown(tick.min(ticks - 1));
+        state.position.z +=
+            PERIOD * f64::from(tick.saturating_sub(ticks - 1)) * state.velocity.linear.z;
+        state
+    };
+    assert_eq!(until_stopped(|tick| Some(hop(tick))), None);
+}
+
 /// Motors brake, and never drive; the joint that is blamed is limp.
 #[test]
 fn a_stop_brakes() {

@@ -133,7 +133,7 @@ pub const LIMITS: SafetyLimits<f64, 2> = SafetyLimits {
         look_ahead_s: 0.1,
         // Three quarters of gravity; the experiments have 8.2 m/s² for a tick.
         free_fall: 7.4,
-        free_fall_s: 0.04,
+        free_fall_s: 0.1,
         // No motor is at its limit in the experiments.
         saturation_s: 6e-3,
     },
