@@ -60,15 +60,27 @@ pub fn fixed_foot_wrenches<T: Real, const LEGS: usize>(
         },
     )?;
     let axes = sole_axes(robot, legs);
-    let mut ground_bias = at_ankles;
-    for (((bias, leg), links), axes) in ground_bias.iter_mut().zip(legs).zip(&robot.legs).zip(&axes)
-    {
-        // (1), from the last joint to the foot's centre of mass.
+    let ground_bias = ground_biases(robot, central, legs, &axes, at_ankles);
+    Ok(FixedFootWrenches { on_central_body, ground_bias })
+}
+
+/// `c_i` of (1) from the wrenches at the last joints by which the ground holds the legs.
+#[inline(always)]
+pub(super) fn ground_biases<T: Real, const LEGS: usize>(
+    robot: &LeggedRobot<T, LEGS>,
+    central: &CentralBody<T>,
+    legs: &[LegKinematics<T>; LEGS],
+    axes: &[Matrix3<T>; LEGS],
+    at_ankles: [Wrench<T>; LEGS],
+) -> [Wrench<T>; LEGS] {
+    let mut biases = at_ankles;
+    for (((bias, leg), links), axes) in biases.iter_mut().zip(legs).zip(&robot.legs).zip(axes) {
+        // From the last joint to the foot's centre of mass.
         let mut wrench = bias.shifted(leg.origins[LEG - 1] - leg.foot.position);
         wrench.force -= central.gravity * links[LEG - 1].inertia.mass;
         *bias = in_axes(axes, &wrench);
     }
-    Ok(FixedFootWrenches { on_central_body, ground_bias })
+    biases
 }
 
 /// Frame 1 from the sole axes of each foot.

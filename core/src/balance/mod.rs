@@ -24,6 +24,7 @@ mod joint_torques;
 mod least_norm;
 mod leg_jacobian;
 mod leg_kinematics;
+mod limited;
 mod robot;
 mod state;
 mod supervisor;
@@ -42,6 +43,10 @@ pub use ground_wrench::{FixedFootWrenches, fixed_foot_wrenches, sole_axes};
 pub use joint_torques::joint_torques;
 pub use leg_jacobian::LegJacobian;
 pub use leg_kinematics::{CentralBody, LegKinematics, central_body, leg_kinematics};
+pub use limited::{
+    BrokenLimit, Ground, LimitMemory, LimitReport, LimitSet, LimitedCommand, WrenchLimits,
+    WrenchLimitsFault, limited_tick,
+};
 pub use robot::{LeggedRobot, LeggedRobotFault};
 pub use state::{Reference, RobotState};
 pub use supervisor::{

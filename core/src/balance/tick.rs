@@ -129,7 +129,7 @@ fn tick_in_full<T: Real, const LEGS: usize>(
 
 /// `F_1 = P_1 X + z_1` (4.3) with the big base.
 #[inline]
-fn big_base_wrench<T: Real, const LEGS: usize>(
+pub(super) fn big_base_wrench<T: Real, const LEGS: usize>(
     controller: &Controller<'_, T, LEGS>,
     central: &CentralBody<T>,
     legs: &[LegKinematics<T>; LEGS],
@@ -170,7 +170,7 @@ fn command<T: Real, const LEGS: usize>(
 }
 
 #[inline(always)]
-fn check_finite<T: Real, const LEGS: usize>(
+pub(super) fn check_finite<T: Real, const LEGS: usize>(
     state: &RobotState<T, LEGS>,
     reference: &Reference<T>,
 ) -> Result<(), Fault> {

@@ -7,6 +7,7 @@ use super::LegKinematics;
 use super::least_norm::LeastNorm;
 use crate::Real;
 use crate::spatial::{SymmetricMatrix3, Wrench};
+use nalgebra::Vector3;
 
 /// The wrenches asked of the feet, from [`wrench_distribution`].
 #[derive(Clone, Copy, Debug)]
@@ -25,10 +26,27 @@ pub fn wrench_distribution<T: Real, const LEGS: usize>(
     legs: &[LegKinematics<T>; LEGS],
 ) -> Option<FootWrenches<T, LEGS>> {
     let positions = legs.each_ref().map(|leg| Some(leg.foot.position));
-    let split = LeastNorm::new(positions, SymmetricMatrix3::scalar(T::of(LEGS as f64)))?;
+    Some(in_foot_frames(split(desired, positions)?, legs))
+}
+
+/// The same over feet at these positions, in frame 1's axes; those that are `None` take no part.
+#[inline(always)]
+pub(super) fn split<T: Real, const LEGS: usize>(
+    desired: Wrench<T>,
+    positions: [Option<Vector3<T>>; LEGS],
+) -> Option<[Wrench<T>; LEGS]> {
+    let count = positions.iter().flatten().count();
+    let split = LeastNorm::new(positions, SymmetricMatrix3::scalar(T::of(count as f64)))?;
     let (torque, forces) = split.forces(desired);
-    let in_central_axes =
-        forces.map(|force| force.map_or(Wrench::zero(), |force| Wrench { force, torque }));
+    Some(forces.map(|force| force.map_or(Wrench::zero(), |force| Wrench { force, torque })))
+}
+
+/// With what they are in the feet's body frames.
+#[inline(always)]
+pub(super) fn in_foot_frames<T: Real, const LEGS: usize>(
+    in_central_axes: [Wrench<T>; LEGS],
+    legs: &[LegKinematics<T>; LEGS],
+) -> FootWrenches<T, LEGS> {
     let mut in_foot_frames = in_central_axes;
     for (wrench, leg) in in_foot_frames.iter_mut().zip(legs) {
         *wrench = Wrench {
@@ -36,5 +54,5 @@ pub fn wrench_distribution<T: Real, const LEGS: usize>(
             torque: leg.foot.rotation.tr_mul(&wrench.torque),
         };
     }
-    Some(FootWrenches { in_central_axes, in_foot_frames })
+    FootWrenches { in_central_axes, in_foot_frames }
 }

@@ -22,6 +22,18 @@ impl<T: Real, const K: usize> ActiveRows<T, K> {
         Self { rows: [0; K], multipliers: [T::zero(); K], count: 0 }
     }
 
+    /// These rows with their multipliers, as [`iter`](Self::iter) gives them: what another one left.
+    /// More than `K` are left out.
+    pub fn of(rows: impl IntoIterator<Item = (u8, T)>) -> Self {
+        let mut active = Self::new();
+        let places = active.rows.iter_mut().zip(&mut active.multipliers);
+        for ((place, multiplier), (row, value)) in places.zip(rows) {
+            (*place, *multiplier) = (row, value);
+            active.count += 1;
+        }
+        active
+    }
+
     /// How many rows are in force.
     #[inline(always)]
     pub fn len(&self) -> usize {

@@ -93,7 +93,7 @@ pub struct Search<'a, T> {
 impl<'a, T: Real> Search<'a, T> {
     /// For rows broken by more than `tolerance`.
     #[inline(always)]
-    pub(super) fn new(held: &'a RowSet, tolerance: T) -> Self {
+    pub(crate) fn new(held: &'a RowSet, tolerance: T) -> Self {
         Self { held, least: -tolerance, row: None }
     }
 
@@ -124,7 +124,7 @@ impl<'a, T: Real> Search<'a, T> {
     }
 
     #[inline(always)]
-    pub(super) fn worst(self) -> Option<Violation<T>> {
+    pub(crate) fn worst(self) -> Option<Violation<T>> {
         self.row.map(|row| Violation { row, amount: -self.least })
     }
 }

@@ -3,7 +3,7 @@
 use super::super::least_norm::LeastNorm;
 use super::metric::Metric;
 use super::rows::STRIDE;
-use super::{ContactFoot, ContactWeights};
+use super::{ContactFoot, ContactLimit, ContactWeights};
 use crate::Real;
 use crate::qp::{Program, ProgramCost, Search, Work};
 use crate::spatial::{SymmetricMatrix3, Wrench};
@@ -82,6 +82,13 @@ impl<'a, T: Real, const FEET: usize, const JOINTS: usize> ContactProgram<'a, T, 
         Some(Self { feet, weights, world, split, least_norm, norm_squared })
     }
 
+    /// The same around other wrenches that make the desired one: where no limit binds, they are the
+    /// answer, and where one does, the distance is taken from them.
+    #[inline(always)]
+    pub fn around(self, wrenches: [Wrench<T>; FEET]) -> Self {
+        Self { least_norm: wrenches, ..self }
+    }
+
     /// The wrench on the central body that these foot wrenches make, in its frame.
     pub fn achieved(&self, wrenches: &[Wrench<T>; FEET]) -> Wrench<T> {
         let feet = self.feet.iter().zip(wrenches);
@@ -89,6 +96,12 @@ impl<'a, T: Real, const FEET: usize, const JOINTS: usize> ContactProgram<'a, T, 
             Some(foot) => sum + w.shifted(foot.position),
             None => sum,
         })
+    }
+
+    /// Foot and limit of a row.
+    pub fn limit_of(&self, row: u8) -> (usize, ContactLimit) {
+        let (foot, row) = Self::split_row(row);
+        (foot, ContactLimit::of_row(row, JOINTS as u8))
     }
 
     /// A foot in contact.
@@ -105,7 +118,7 @@ impl<'a, T: Real, const FEET: usize, const JOINTS: usize> ContactProgram<'a, T, 
 
     /// Foot and row of it.
     #[inline(always)]
-    pub(super) fn split_row(row: u8) -> (usize, u8) {
+    fn split_row(row: u8) -> (usize, u8) {
         (usize::from(row / STRIDE), row % STRIDE)
     }
 }

@@ -24,10 +24,7 @@ impl<T: Real, const FEET: usize, const JOINTS: usize> ContactProgram<'_, T, FEET
         wrenches: &'s [Wrench<T>; FEET],
         active: &'s ActiveRows<T, K>,
     ) -> impl Iterator<Item = Reason<T>> + 's {
-        let key = |row| {
-            let (foot, row) = Self::split_row(row);
-            (foot, ContactLimit::of_row(row, JOINTS as u8))
-        };
+        let key = |row| self.limit_of(row);
         active.iter().enumerate().filter_map(move |(place, (row, _))| {
             let (foot, limit) = key(row);
             // Counted at its first row.

@@ -23,7 +23,7 @@
 //! Torques depend on `w` alone, as the links' weight and inertia are in the desired wrench:
 //! `τ_k = −(J_k · w)`, with `J_k` the foot's twist per rate of joint k (Alg. 4.6).
 
-use super::ContactFoot;
+use super::{ContactFoot, ContactLimits};
 use crate::Real;
 use crate::qp::Search;
 use crate::spatial::Wrench;
@@ -135,8 +135,43 @@ impl<T: Real, const JOINTS: usize> ContactFoot<'_, T, JOINTS> {
     #[inline(always)]
     pub(super) fn scan(&self, w: &Wrench<T>, first: u8, search: &mut Search<'_, T>) {
         let limits = self.limits;
+        limits.scan_contact(&(self.in_sole_axes(w) + self.carried), first, search);
+        limits.scan_torques(|k| -self.joints[k].power(*w), first, search);
+    }
+
+    /// The term of a row's limit, in the row's unit, that is scaled where the limit is widened, with
+    /// the ground's force `fz` normal to the sole.
+    #[inline(always)]
+    pub(super) fn limit_term(&self, limit: ContactLimit, row: u8, fz: T) -> T {
+        let limits = self.limits;
         let patch = &limits.patch;
-        let ground = self.in_sole_axes(w) + self.carried;
+        let cap = limits.friction * T::of(FRAC_1_SQRT_2) * fz;
+        match limit {
+            ContactLimit::Lift => limits.least_force,
+            ContactLimit::Press => limits.greatest_force,
+            ContactLimit::Slip => cap,
+            ContactLimit::Tip if row % STRIDE < 8 => patch.half_x * fz,
+            ContactLimit::Tip => patch.half_y * fz,
+            ContactLimit::Twist => cap * (patch.half_x + patch.half_y),
+            ContactLimit::Torque(joint) => {
+                limits.torques.get(usize::from(joint)).map_or(T::zero(), |limit| *limit)
+            }
+        }
+    }
+}
+
+impl<T: Real, const JOINTS: usize> ContactLimits<T, JOINTS> {
+    /// Tests the rows of the contact at the wrench `ground` of the ground, in sole axes about the
+    /// reference point; the foot's first row has the number `first`.
+    #[inline(always)]
+    pub(in crate::balance) fn scan_contact(
+        &self,
+        ground: &Wrench<T>,
+        first: u8,
+        search: &mut Search<'_, T>,
+    ) {
+        let limits = self;
+        let patch = &limits.patch;
         let (f, n) = (ground.force, ground.torque);
         search.offer(first, f.z - limits.least_force);
         search.offer(first | 1, limits.greatest_force - f.z);
@@ -174,29 +209,19 @@ impl<T: Real, const JOINTS: usize> ContactFoot<'_, T, JOINTS> {
                 }
             }
         }
-        for (k, (twist, limit)) in (0_u8..).zip(self.joints.iter().zip(&limits.torques)) {
-            let plus = first | (CONTACT_ROWS + k);
-            search.offer_pair(*limit, -twist.power(*w), [plus, plus + JOINTS as u8]);
-        }
     }
 
-    /// The term of a row's limit, in the row's unit, that is scaled where the limit is widened, with
-    /// the ground's force `fz` normal to the sole.
+    /// Tests the rows of torques, which `torque` gives for each joint.
     #[inline(always)]
-    pub(super) fn limit_term(&self, limit: ContactLimit, row: u8, fz: T) -> T {
-        let limits = self.limits;
-        let patch = &limits.patch;
-        let cap = limits.friction * T::of(FRAC_1_SQRT_2) * fz;
-        match limit {
-            ContactLimit::Lift => limits.least_force,
-            ContactLimit::Press => limits.greatest_force,
-            ContactLimit::Slip => cap,
-            ContactLimit::Tip if row % STRIDE < 8 => patch.half_x * fz,
-            ContactLimit::Tip => patch.half_y * fz,
-            ContactLimit::Twist => cap * (patch.half_x + patch.half_y),
-            ContactLimit::Torque(joint) => {
-                limits.torques.get(usize::from(joint)).map_or(T::zero(), |limit| *limit)
-            }
+    pub(in crate::balance) fn scan_torques(
+        &self,
+        torque: impl Fn(usize) -> T,
+        first: u8,
+        search: &mut Search<'_, T>,
+    ) {
+        for (k, limit) in self.torques.iter().enumerate() {
+            let plus = first | (CONTACT_ROWS + k as u8);
+            search.offer_pair(*limit, torque(k), [plus, plus + JOINTS as u8]);
         }
     }
 }

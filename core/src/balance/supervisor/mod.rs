@@ -37,7 +37,7 @@ pub use memory::{Before, SupervisorMemory};
 pub use reason::StopReason;
 
 use super::robot::LEG;
-use super::{Command, Controller, Reference, RobotState, tick};
+use super::{Command, Controller, Fault, Reference, RobotState, tick};
 use crate::Real;
 
 /// What the supervisor is doing.
@@ -197,9 +197,25 @@ impl<T: Real, const LEGS: usize> Supervisor<T, LEGS> {
         reference: &Reference<T>,
         overran: bool,
     ) -> Supervised<T, LEGS> {
+        self.step_with(measured, reference, overran, |now| tick(controller, now, reference))
+    }
+
+    /// The same with another tick, such as [`limited_tick`](super::limited_tick): what it answers to a
+    /// measurement that is believed. It is not called in any other case.
+    ///
+    /// # Cost
+    /// As [`step`](Self::step).
+    #[inline]
+    pub fn step_with(
+        &mut self,
+        measured: Option<&RobotState<T, LEGS>>,
+        reference: &Reference<T>,
+        overran: bool,
+        tick: impl FnOnce(&RobotState<T, LEGS>) -> Result<Command<T, LEGS>, Fault>,
+    ) -> Supervised<T, LEGS> {
         if self.memory.mode == Mode::Active {
             let mut command = None;
-            match self.active(controller, measured, reference, overran, &mut command) {
+            match self.active(tick, measured, reference, overran, &mut command) {
                 Ok(()) => return Supervised { joint_torques: self.memory.torques, command },
                 Err(reason) => {
                     self.memory.reason = Some(reason);
@@ -219,7 +235,7 @@ impl<T: Real, const LEGS: usize> Supervisor<T, LEGS> {
     #[inline(always)]
     fn active(
         &mut self,
-        controller: &Controller<'_, T, LEGS>,
+        tick: impl FnOnce(&RobotState<T, LEGS>) -> Result<Command<T, LEGS>, Fault>,
         measured: Option<&RobotState<T, LEGS>>,
         reference: &Reference<T>,
         overran: bool,
@@ -232,7 +248,7 @@ impl<T: Real, const LEGS: usize> Supervisor<T, LEGS> {
             return self.bridge();
         };
         let is_doubtful = self.check(now, reference)?;
-        let command = command.insert(tick(controller, now, reference).map_err(StopReason::Tick)?);
+        let command = command.insert(tick(now).map_err(StopReason::Tick)?);
         let step = is_doubtful.then_some(self.limits.thresholds.torque_step);
         self.memory.drive(&command.joint_torques, &self.limits.joints, step);
         if self.memory.saturated >= self.saturation_ticks {

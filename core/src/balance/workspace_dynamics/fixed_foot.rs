@@ -83,15 +83,17 @@ pub(in crate::balance) fn fixed_foot_wrench_of_legs<
 }
 
 /// One leg's part of (3).
-struct LegWrench<T> {
+pub(in crate::balance) struct LegWrench<T> {
     /// `Σ F_k`, at the centre of mass of the central body.
-    links: Wrench<T>,
+    pub links: Wrench<T>,
     /// `w`, at the last joint.
-    ground: Wrench<T>,
+    pub ground: Wrench<T>,
 }
 
+/// That part, for the angular acceleration `alpha_1` of the central body and the acceleration `a_1` of
+/// its centre of mass less gravity.
 #[inline(always)]
-fn leg_wrench<T: Real, const ROTORS: bool>(
+pub(in crate::balance) fn leg_wrench<T: Real, const ROTORS: bool>(
     links: &[Node<T>; LEG],
     leg: &LegKinematics<T>,
     jacobian: &LegJacobian<T>,
@@ -134,7 +136,7 @@ fn leg_wrench<T: Real, const ROTORS: bool>(
 /// (1) along a leg: calls `link` with the number, angular acceleration and joint's acceleration of
 /// each link, and returns those of the foot.
 #[inline(always)]
-fn accelerate<T: Real>(
+pub(super) fn accelerate<T: Real>(
     leg: &LegKinematics<T>,
     central: &CentralBody<T>,
     alpha_1: Vector3<T>,

@@ -22,7 +22,7 @@ pub(super) fn relative_acceleration<T: Real>(
 
 /// `f = m a + K h`, `n = h × a + J α + ω × J ω`, at the joint.
 #[inline(always)]
-pub(super) fn inertial_wrench<T: Real>(
+pub(in crate::balance) fn inertial_wrench<T: Real>(
     node: &Node<T>,
     rotation: &Matrix3<T>,
     omega: Vector3<T>,

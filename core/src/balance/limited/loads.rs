@@ -1,0 +1,105 @@
+//! What the wanted acceleration asks of the legs: those that stand and those that hang.
+
+use super::WrenchLimits;
+use crate::Real;
+use crate::balance::ground_wrench::ground_biases;
+use crate::balance::robot::LEG;
+use crate::balance::tick::big_base_wrench;
+use crate::balance::workspace_dynamics::{
+    fixed_foot_wrench_of_legs, hanging_leg, inertial_wrench, leg_wrench,
+};
+use crate::balance::{
+    CentralBody, Controller, Fault, LegJacobian, LegKinematics, WorkspaceForm, sole_axes,
+};
+use crate::spatial::{Twist, Wrench};
+use nalgebra::Matrix3;
+
+/// All of it, in frame 1.
+pub(super) struct Loads<T, const LEGS: usize> {
+    /// On the central body.
+    pub desired: Wrench<T>,
+    /// What the ground gives each standing foot beside the wrench of its joints, sole axes.
+    pub carried: [Wrench<T>; LEGS],
+    /// Frame 1 from the sole axes of each foot.
+    pub axes: [Matrix3<T>; LEGS],
+    /// Torques of the legs that hang, N·m; zero for those that stand.
+    pub hanging: [[T; LEG]; LEGS],
+}
+
+/// For the acceleration `x` of the central body. With a foot in the air the feet that stand are held
+/// exactly, whatever the form.
+#[inline(always)]
+pub(super) fn loads<T: Real, const LEGS: usize>(
+    controller: &Controller<'_, T, LEGS>,
+    limits: &WrenchLimits<T, LEGS>,
+    central: &CentralBody<T>,
+    legs: &[LegKinematics<T>; LEGS],
+    contacts: &[bool; LEGS],
+    x: Twist<T>,
+) -> Result<Loads<T, LEGS>, Fault> {
+    let (robot, singularity) = (controller.robot, controller.singularity);
+    let mut at_ankles = [Wrench::zero(); LEGS];
+    let mut hanging = [[T::zero(); LEG]; LEGS];
+    let desired = if contacts.iter().all(|stands| *stands) {
+        let held = |leg: usize, w| {
+            if let Some(entry) = at_ankles.get_mut(leg) {
+                *entry = w;
+            }
+        };
+        let fixed = fixed_foot_wrench_of_legs::<T, LEGS, true>(
+            robot,
+            central,
+            legs,
+            singularity,
+            x,
+            held,
+        )?;
+        match controller.form {
+            WorkspaceForm::FixedFoot => fixed,
+            WorkspaceForm::BigBase { factor } => {
+                big_base_wrench(controller, central, legs, factor, x)?
+            }
+        }
+    } else {
+        let rest_rate = limits.rest_rate;
+        some_hang(controller, central, legs, contacts, (x, rest_rate), &mut at_ankles, &mut hanging)?
+    };
+    let axes = sole_axes(robot, legs);
+    let carried = ground_biases(robot, central, legs, &axes, at_ankles);
+    Ok(Loads { desired, carried, axes, hanging })
+}
+
+/// The same wrench where not all feet stand.
+#[inline(never)]
+fn some_hang<T: Real, const LEGS: usize>(
+    controller: &Controller<'_, T, LEGS>,
+    central: &CentralBody<T>,
+    legs: &[LegKinematics<T>; LEGS],
+    contacts: &[bool; LEGS],
+    (x, rest_rate): (Twist<T>, T),
+    at_ankles: &mut [Wrench<T>; LEGS],
+    hanging: &mut [[T; LEG]; LEGS],
+) -> Result<Wrench<T>, Fault> {
+    let robot = controller.robot;
+    let v = central.velocity;
+    let a = x.linear + v.angular.cross(&v.linear) - central.gravity;
+    let mut sum = inertial_wrench(&robot.central, &Matrix3::identity(), v.angular, x.angular, a);
+    let given = robot.legs.iter().zip(legs).zip(&robot.reach).zip(contacts);
+    let taken = at_ankles.iter_mut().zip(hanging);
+    for (number, ((((links, leg), reach), stands), (at_ankle, torques))) in
+        given.zip(taken).enumerate()
+    {
+        if *stands {
+            let jacobian = LegJacobian::new(leg, *reach, controller.singularity)
+                .ok_or(Fault::SingularLeg { leg: number })?;
+            let inertial = leg_wrench::<T, true>(links, leg, &jacobian, central, x.angular, a);
+            sum += inertial.links - inertial.ground.shifted(leg.origins[LEG - 1]);
+            *at_ankle = inertial.ground;
+        } else {
+            let leg = hanging_leg(links, leg, central, x.angular, a, rest_rate);
+            sum += leg.on_central_body;
+            *torques = leg.torques;
+        }
+    }
+    Ok(sum)
+}
