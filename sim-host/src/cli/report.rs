@@ -1,7 +1,7 @@
 //! What `run` says: as text for people, as JSON for programs.
 
 use super::controller::Place;
-use crate::closed_loop::{Costs, CutTorques, Outcome, Peaks, Run, Scalar};
+use crate::closed_loop::{Costs, CutTorques, Outcome, Peaks, Run, Scalar, WorstLimit};
 use crate::experiments::{printed_figures, reading};
 use crate::record::Sample;
 use crate::scene::{Scene, TorquesFrom};
@@ -143,6 +143,14 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
     if let CutTorques { joint_ticks, first_s: Some(first) } = run.cut_torques {
         writeln!(out, "  torques cut to the motors' limits: {joint_ticks}, from {first} s on")?;
     }
+    if let Some(limits) = &run.limits {
+        write!(out, "  limits of floor and motors bound in {:.2} % of the ticks", 100.0 * limits.active_share)?;
+        if let Some(WorstLimit { limit, leg, joint, time_s, .. }) = limits.worst {
+            let joint = joint.map_or_else(String::new, |joint| format!(" of joint {joint}"));
+            write!(out, ", most of all: {limit}{joint}, {leg} leg, at {time_s} s")?;
+        }
+        writeln!(out)?;
+    }
     if let Some(progress) = &run.progress {
         writeln!(
             out,
@@ -233,6 +241,7 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "constraint_max": run.constraint_max,
         "peak_torque_nm": peak_torque,
         "cut_torques": run.cut_torques,
+        "limits": run.limits,
         "supervisor": (*controller != Place::Bare).then(|| json!({
             "stopped": run.stop.is_some(),
             "time_s": run.stop.map(|stop| stop.time_s),

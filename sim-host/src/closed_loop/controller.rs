@@ -2,6 +2,7 @@
 
 use super::approximate::{ApproximateController, Approximation};
 use super::firmware::LinkError;
+use super::limiting::{LimitTally, Limiting};
 use super::supervised::SupervisedController;
 use crate::plant::PlantState;
 use crate::record::SupervisorMemory;
@@ -59,6 +60,26 @@ pub trait Controller {
     fn remember(&mut self, memory: &SupervisorMemory) -> bool {
         let _ = memory;
         false
+    }
+
+    /// Tells it before a tick which feet touch the ground, and the time, s.
+    fn touch(&mut self, time_s: f64, feet: &[bool]) {
+        let _ = (time_s, feet);
+    }
+
+    /// What limits of ground and motors have done so far, if it knows any.
+    fn limits(&self) -> Option<LimitTally> {
+        None
+    }
+
+    /// The limits that bound at the last tick, by row and multiplier, from which the next begins.
+    fn limit_rows(&self) -> Vec<(u8, f64)> {
+        Vec::new()
+    }
+
+    /// Goes on with those of another one.
+    fn resume_limits(&mut self, rows: &[(u8, f64)]) {
+        let _ = rows;
     }
 
     /// What its ticks have cost so far, if it runs on a target that counts.
@@ -119,6 +140,7 @@ impl ControlFailure {
 pub struct HostController<T: 'static> {
     pub(super) controller: balance::Controller<'static, T, 2>,
     pub(super) reference: Reference<T>,
+    pub(super) limiting: Option<Limiting<T>>,
 }
 
 /// The controller of a scene, under its supervisor: what runs on the target.
@@ -183,7 +205,19 @@ impl<T: Real> HostController<T> {
             Vector3::from(scene.set_point.position_m.map(T::of)),
             Quaternion::from_array(scene.set_point.orientation.map(T::of)),
         );
-        Self { controller, reference }
+        Self { controller, reference, limiting: Limiting::of(scene, robot) }
+    }
+
+    /// One tick, within limits if the scene has them.
+    pub(super) fn command(
+        &mut self,
+        state: &RobotState<T, 2>,
+    ) -> Result<balance::Command<T, 2>, Fault> {
+        let Self { controller, reference, limiting } = self;
+        match limiting {
+            None => tick(controller, state, reference),
+            Some(limiting) => limiting.tick(controller, state, reference),
+        }
     }
 }
 
@@ -203,9 +237,28 @@ pub fn measured<T: Real>(state: &PlantState) -> RobotState<T, 2> {
 
 impl<T: Real> Controller for HostController<T> {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
-        let command = tick(&self.controller, &measured(state), &self.reference)
-            .map_err(ControlFailure::Fault)?;
+        let command = self.command(&measured(state)).map_err(ControlFailure::Fault)?;
         Ok(commanded(command.joint_torques, command.desired_wrench))
+    }
+
+    fn touch(&mut self, time_s: f64, feet: &[bool]) {
+        if let Some(limiting) = &mut self.limiting {
+            limiting.touch(time_s, feet);
+        }
+    }
+
+    fn limits(&self) -> Option<LimitTally> {
+        self.limiting.as_ref().map(Limiting::tally)
+    }
+
+    fn limit_rows(&self) -> Vec<(u8, f64)> {
+        self.limiting.as_ref().map_or_else(Vec::new, Limiting::rows)
+    }
+
+    fn resume_limits(&mut self, rows: &[(u8, f64)]) {
+        if let Some(limiting) = &mut self.limiting {
+            limiting.resume(rows);
+        }
     }
 }
 

@@ -8,6 +8,7 @@ mod errors;
 mod estimate;
 mod events;
 pub mod firmware;
+mod limiting;
 mod memory;
 mod outcome;
 mod plant;
@@ -22,6 +23,7 @@ pub use controller::{
     Commanded, ControlFailure, Controller, Costs, HostController, Scalar, approximate_controller,
     bare_controller, controller, measured,
 };
+pub use limiting::{LimitTally, WorstLimit};
 pub use outcome::{Failure, Outcome, Peak, Peaks};
 pub use plant::plant;
 pub use run::{Run, Stop, run, run_from, run_plant};

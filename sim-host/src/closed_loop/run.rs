@@ -6,7 +6,10 @@ use super::errors::set_point_errors;
 use super::events::Watch;
 use super::memory::{memory, remember};
 use super::plant::plant;
-use super::{Commanded, Controller, Costs, CutTorques, Failure, Motors, Outcome, Sensors};
+use super::{
+    Commanded, Controller, Costs, CutTorques, Failure, LimitTally, Motors, Outcome, Sensors,
+};
+use crate::contact::ContactState;
 use crate::follow::Follow;
 use crate::integrators::Progress;
 use crate::multibody::SystemError;
@@ -45,6 +48,8 @@ pub struct Run {
     pub saved: Option<SavedRun>,
     /// What the controller's ticks have cost, where it ran on a target.
     pub costs: Option<Costs>,
+    /// What limits of ground and motors have done, where the controller knows them.
+    pub limits: Option<LimitTally>,
     /// What the motors could not give.
     pub cut_torques: CutTorques,
     /// That the controller's supervisor has stopped the robot.
@@ -107,6 +112,7 @@ pub fn run_plant(
     }
     run.wall = started.elapsed();
     run.costs = controller.costs();
+    run.limits = controller.limits();
     run
 }
 
@@ -126,6 +132,7 @@ impl Run {
             progress: None,
             saved: None,
             costs: None,
+            limits: None,
             cut_torques: CutTorques::default(),
             stop: None,
         }
@@ -166,7 +173,8 @@ fn advance(
     let mut sensors = Sensors::new(&scene.sensing, steps_per_tick as f64 * step);
     let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize);
     let mut first = 0;
-    if let Some(SavedRun { torques_on, checkpoint, hardware, supervisor, motion, .. }) = from {
+    if let Some(saved) = from {
+        let SavedRun { torques_on, checkpoint, hardware, supervisor, motion, .. } = saved;
         if let Some(difference) = motion.difference(&MotionIdentity::of_robot(scene)) {
             return Err(other_motion(&difference));
         }
@@ -187,6 +195,7 @@ fn advance(
         if let Some(memory) = supervisor {
             controller.remember(memory);
         }
+        controller.resume_limits(&saved.limit_rows);
         watch = plant.contacts().as_ref().map_or(watch, Watch::from);
         watch.look_at_block(0.0, plant.is_struck(), &mut Vec::new());
     }
@@ -199,6 +208,10 @@ fn advance(
         let is_last = tick == ticks || is_interrupted;
         let memory = is_last.then(|| memory(scene, &sensors, &motors)).flatten();
         let supervisor = is_last.then(|| controller.memory()).flatten();
+        if let Some(contacts) = plant.contacts() {
+            let touches = |foot: &[_; 4]| foot.iter().any(|state| *state != ContactState::Free);
+            controller.touch(time, &contacts.each_ref().map(touches));
+        }
         let command = command(&sensors.read(&state), controller, touched, time)?;
         if run.stop.is_none() {
             run.stop = controller.stopped().map(|reason| Stop { time_s: time, reason });
@@ -218,6 +231,7 @@ fn advance(
                 checkpoint: SavedMotion::Tree(checkpoint.clone()),
                 hardware: memory,
                 supervisor,
+                limit_rows: controller.limit_rows(),
             });
             break;
         }

@@ -3,6 +3,7 @@
 use super::controller::{
     Commanded, ControlFailure, Controller, HostController, commanded, measured,
 };
+use super::limiting::LimitTally;
 use crate::plant::PlantState;
 use crate::record::{self, MeasuredBefore};
 use crate::scene::Scene;
@@ -34,10 +35,27 @@ impl<T: Real> SupervisedController<T> {
 
 impl<T: Real> Controller for SupervisedController<T> {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
-        let HostController { controller, reference } = &self.inner;
-        let answer = self.supervisor.step(controller, Some(&measured(state)), reference, false);
+        let reference = self.inner.reference;
+        let tick = |now: &_| self.inner.command(now);
+        let answer = self.supervisor.step_with(Some(&measured(state)), &reference, false, tick);
         let wrench = answer.command.map_or_else(Wrench::zero, |command| command.desired_wrench);
         Ok(commanded(answer.joint_torques, wrench))
+    }
+
+    fn touch(&mut self, time_s: f64, feet: &[bool]) {
+        self.inner.touch(time_s, feet);
+    }
+
+    fn limits(&self) -> Option<LimitTally> {
+        self.inner.limits()
+    }
+
+    fn limit_rows(&self) -> Vec<(u8, f64)> {
+        self.inner.limit_rows()
+    }
+
+    fn resume_limits(&mut self, rows: &[(u8, f64)]) {
+        self.inner.resume_limits(rows);
     }
 
     fn stopped(&self) -> Option<StopReason> {

@@ -181,6 +181,7 @@ pub fn run_model(
         checkpoint,
         hardware: None,
         supervisor: None,
+        limit_rows: Vec::new(),
     });
     run.wall = begun.elapsed();
     // The one before last: what fails has begun before it fails.

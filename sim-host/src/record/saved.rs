@@ -31,6 +31,9 @@ pub struct SavedRun {
     /// What the controller's supervisor remembers; none where there is none on this side.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub supervisor: Option<SupervisorMemory>,
+    /// Limits of ground and motors that bound at the last tick, by row and multiplier.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub limit_rows: Vec<(u8, f64)>,
 }
 
 /// All that a motion needs to go on, by the simulator that plays it.

@@ -12,7 +12,7 @@ pub struct BuiltIn {
 }
 
 /// All built-in scenes.
-pub const BUILT_IN: [BuiltIn; 13] = [
+pub const BUILT_IN: [BuiltIn; 14] = [
     BuiltIn { name: "experiment-1", text: include_str!("../../scenes/experiment-1.toml") },
     BuiltIn {
         name: "experiment-1-pushes",
@@ -27,6 +27,7 @@ pub const BUILT_IN: [BuiltIn; 13] = [
         name: "experiment-2-welded",
         text: include_str!("../../scenes/experiment-2-welded.toml"),
     },
+    BuiltIn { name: "stand", text: include_str!("../../scenes/stand.toml") },
     BuiltIn { name: "box-drop", text: include_str!("../../scenes/box-drop.toml") },
     BuiltIn { name: "biped-flight", text: include_str!("../../scenes/biped-flight.toml") },
     BuiltIn { name: "chain", text: include_str!("../../scenes/chain.toml") },

@@ -2,7 +2,7 @@
 
 use super::check_hardware::check_hardware;
 use super::rung::check_model;
-use super::{Feet, Scene, SceneError, Workspace};
+use super::{Distribution, Feet, Scene, SceneError, Workspace};
 use crate::integrators::Method;
 use nalgebra::Vector3;
 use surefoot::balance::{LeggedRobot, RobotState, central_body, leg_kinematics};
@@ -93,6 +93,10 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
     {
         let expected = "a finite factor of 1 or more (printed: 1e6)";
         return Err(wrong(scene, "controller.workspace.big-base", factor, expected));
+    }
+    if controller.distribution == Distribution::Limited && matches!(scene.feet, Feet::Welded {}) {
+        let expected = "\"least-norm\" for feet that are held: nothing limits them";
+        return Err(wrong(scene, "controller.distribution", "limited", expected));
     }
     if let Feet::Floor { floor, .. } = &scene.feet
         && let Some((name, value, expected)) = floor.invalid()

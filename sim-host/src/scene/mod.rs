@@ -149,8 +149,28 @@ pub struct ControllerSettings {
     pub angular_velocity_gain: [f64; 3],
     /// Form of the workspace dynamics.
     pub workspace: Workspace,
+    /// How the wanted wrench is given to the feet.
+    #[serde(default, skip_serializing_if = "Distribution::is_default")]
+    pub distribution: Distribution,
     /// When torques set in.
     pub torques_from: TorquesFrom,
+}
+
+/// How the wanted wrench is given to the feet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Distribution {
+    /// As printed: least norm, whatever floor and motors can give.
+    #[default]
+    LeastNorm,
+    /// The same within what floor and motors can give.
+    Limited,
+}
+
+impl Distribution {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// Form of the workspace dynamics.

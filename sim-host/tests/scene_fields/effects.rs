@@ -14,7 +14,8 @@ const IDLE: [(&str, &str); 3] = [
 ];
 
 /// Words that a field of words may hold; the record must change from one to the next.
-const WORDS: [(&str, &[&str]); 8] = [
+const WORDS: [(&str, &[&str]); 9] = [
+    ("distribution", &["least-norm", "limited"]),
     ("torques_from", &["start", "touch-down"]),
     ("outline", &["A", "M", "R"]),
     ("switching", &["within-the-step", "at-midpoint"]),

@@ -5,6 +5,7 @@ mod contact_wrenches;
 mod distribution;
 mod faults;
 mod ground;
+mod limited;
 mod orientation;
 mod supervisor;
 mod vectors;

@@ -13,6 +13,7 @@ mod link;
 mod parsimony;
 mod plants;
 mod sensing;
+mod stand;
 mod stops;
 mod supervised;
 mod welded;

@@ -2,7 +2,7 @@
 
 mod budget;
 mod degenerate;
-mod peer;
+pub mod peer;
 mod random;
 mod textbook;
 

@@ -8,7 +8,7 @@ use surefoot::qp::DenseProgram;
 use surefoot_tests::random_trees::random;
 
 /// Unknowns (x, s): `½ (x − x₀)ᵀ H (x − x₀) + ½ |s|²/δ`, `A x + s ≥ b`.
-fn by_clarabel<const N: usize, const M: usize>(
+pub fn by_clarabel<const N: usize, const M: usize>(
     program: &DenseProgram<f64, N, M>,
     softness: f64,
 ) -> [f64; N] {

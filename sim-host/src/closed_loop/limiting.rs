@@ -1,0 +1,189 @@
+//! What a scene's floor and motors can give, as its controller knows it.
+
+use crate::contact::Floor;
+use crate::scene::{Distribution, Feet, Outline, Scene};
+use serde::Serialize;
+use surefoot::Real;
+use surefoot::balance::{
+    self, Command, ContactLimit, Fault, Ground, LeggedRobot, LimitMemory, LimitReport, Reference,
+    RobotState, Sole, WrenchLimits, limited_tick,
+};
+use surefoot::model::robots::biped;
+
+/// Shares of friction and of the soles' lengths that the controller counts on.
+const FRICTION_SHARE: f64 = 0.8;
+const SOLE_SHARE: f64 = 0.92;
+/// A foot that stands is pressed on with so much, N.
+const LEAST_FORCE: f64 = 5.0;
+/// Greatest force on a foot in weights of the robot.
+const MOST_WEIGHTS: f64 = 4.0;
+/// Height of a sole over the ankle, m.
+const SOLE_HEIGHT: f64 = -0.06;
+
+/// Limits of a scene, what the last tick leaves for the next, and what became of the ticks so far.
+pub(super) struct Limiting<T> {
+    limits: WrenchLimits<T, 2>,
+    memory: LimitMemory<T>,
+    contacts: [bool; 2],
+    time_s: f64,
+    tally: LimitTally,
+}
+
+/// How often limits bound, and which did most.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct LimitTally {
+    /// Ticks.
+    pub ticks: u64,
+    /// Share of them in which some limit bound.
+    pub active_share: f64,
+    /// Ticks whose work was spent before the answer was reached.
+    pub unfinished: u64,
+    /// The limit that cost most at any tick.
+    pub worst: Option<WorstLimit>,
+    #[serde(skip)]
+    active: u64,
+}
+
+/// A limit that bound.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct WorstLimit {
+    /// `lift`, `press`, `slip`, `tip`, `twist` or `torque`.
+    pub limit: &'static str,
+    /// Name of the leg.
+    pub leg: &'static str,
+    /// Number of the joint, hip to foot from 0, of a torque.
+    pub joint: Option<u8>,
+    /// When, s.
+    pub time_s: f64,
+    /// By how much the objective would fall per 100 % of a wider limit.
+    pub relief: f64,
+}
+
+impl<T: Real> Limiting<T> {
+    /// Of a scene whose controller's distribution is limited.
+    pub fn of(scene: &Scene, robot: &LeggedRobot<T, 2>) -> Option<Self> {
+        let Feet::Floor { outline, floor } = &scene.feet else { return None };
+        if scene.controller.distribution != Distribution::Limited {
+            return None;
+        }
+        let weight = biped::TREE.mass() * 9.81;
+        let ground = Ground {
+            least_force: T::of(env("LF", LEAST_FORCE)),
+            greatest_force: T::of(MOST_WEIGHTS * weight),
+            friction: T::of(env("FS", FRICTION_SHARE) * friction(floor)),
+        };
+        let mut torques = biped::LIMITS.joints.map(|leg| leg.map(|joint| joint.torque));
+        if let Some(motors) = scene.acting.torque_limits_nm {
+            torques = torques.map(|leg| std::array::from_fn(|k| leg[k].min(motors[k])));
+        }
+        let soles = [sole(*outline); 2];
+        let limits = WrenchLimits::new(robot, &soles, ground, &torques.map(|leg| leg.map(T::of)))
+            .expect("a checked floor, and a robot of this program");
+        let mut limits = limits;
+        tune(&mut limits); // TUNE
+        let (memory, tally) = (LimitMemory::new(), LimitTally::default());
+        Some(Self { limits, memory, contacts: [true; 2], time_s: 0.0, tally })
+    }
+
+    /// Which feet touch the ground at the next tick, and when that is.
+    pub fn touch(&mut self, time_s: f64, feet: &[bool]) {
+        self.time_s = time_s;
+        if env("ALL", 0.0) > 0.0 { return; }
+        for (to, touches) in self.contacts.iter_mut().zip(feet) {
+            *to = *touches;
+        }
+    }
+
+    /// One tick.
+    pub fn tick(
+        &mut self,
+        controller: &balance::Controller<'_, T, 2>,
+        state: &RobotState<T, 2>,
+        reference: &Reference<T>,
+    ) -> Result<Command<T, 2>, Fault> {
+        let Self { limits, memory, contacts, .. } = self;
+        let answer = limited_tick(controller, limits, state, reference, contacts, memory)?;
+        self.count(&answer.limits);
+        Ok(answer.command)
+    }
+
+    fn count(&mut self, report: &LimitReport<T, 2>) {
+        let tally = &mut self.tally;
+        tally.ticks += 1;
+        tally.active += u64::from(report.is_limited());
+        tally.active_share = tally.active as f64 / tally.ticks as f64;
+        tally.unfinished += u64::from(matches!(
+            report.status,
+            surefoot::qp::Status::BudgetSpent | surefoot::qp::Status::TooManyRows
+        ));
+        let Some(reason) = report.worst else { return };
+        let relief = reason.relief.to_f64();
+        if tally.worst.is_some_and(|worst| worst.relief >= relief) {
+            return;
+        }
+        let (limit, joint) = match reason.limit {
+            ContactLimit::Lift => ("lift", None),
+            ContactLimit::Press => ("press", None),
+            ContactLimit::Slip => ("slip", None),
+            ContactLimit::Tip => ("tip", None),
+            ContactLimit::Twist => ("twist", None),
+            ContactLimit::Torque(joint) => ("torque", Some(joint)),
+        };
+        let leg = if reason.foot == 0 { "left" } else { "right" };
+        tally.worst = Some(WorstLimit { limit, leg, joint, time_s: self.time_s, relief });
+    }
+
+    /// What became of the ticks so far.
+    pub fn tally(&self) -> LimitTally {
+        self.tally
+    }
+
+    /// Limits that bound at the last tick.
+    pub fn rows(&self) -> Vec<(u8, f64)> {
+        self.memory.rows().map(|(row, multiplier)| (row, multiplier.to_f64())).collect()
+    }
+
+    /// Goes on with them.
+    pub fn resume(&mut self, rows: &[(u8, f64)]) {
+        self.memory = LimitMemory::of(rows.iter().map(|(row, multiplier)| (*row, T::of(*multiplier))));
+    }
+}
+
+/// What a floor can be counted on to hold.
+fn friction(floor: &Floor) -> f64 {
+    floor.static_friction.min(floor.dynamic_friction)
+}
+
+/// The share of a sole that is counted on, from the ankle.
+fn sole<T: Real>(outline: Outline) -> Sole<T> {
+    let outline = outline.sole();
+    let range = |[least, greatest]: [f64; 2]| {
+        let (middle, half) = (0.5 * (least + greatest), 0.5 * env("SS", SOLE_SHARE) * (greatest - least));
+        [T::of(middle - half), T::of(middle + half)]
+    };
+    Sole {
+        x: range([-outline.toe, outline.heel]),
+        y: range([-outline.half_width, outline.half_width]),
+        z: T::of(SOLE_HEIGHT),
+    }
+}
+
+fn env(name: &str, default: f64) -> f64 {
+    std::env::var(name).ok().and_then(|x| x.parse().ok()).unwrap_or(default)
+}
+fn tune<T: Real>(limits: &mut WrenchLimits<T, 2>) {
+    let w = &mut limits.weights;
+    w.regularization = T::of(env("EPS", w.regularization.to_f64()));
+    w.norm_length = T::of(env("ELL", w.norm_length.to_f64()));
+    if let Ok(text) = std::env::var("W") {
+        for (to, x) in w.task.iter_mut().zip(text.split(',')) {
+            *to = T::of(x.parse().unwrap());
+        }
+    }
+    limits.settings.softness = T::of(env("SOFT", 1e-3));
+    for leg in &mut limits.legs {
+        for t in &mut leg.torques {
+            *t *= T::of(env("TS", 1.0));
+        }
+    }
+}
