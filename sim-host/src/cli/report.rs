@@ -144,7 +144,11 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
         writeln!(out, "  torques cut to the motors' limits: {joint_ticks}, from {first} s on")?;
     }
     if let Some(limits) = &run.limits {
-        write!(out, "  limits of floor and motors bound in {:.2} % of the ticks", 100.0 * limits.active_share)?;
+        write!(
+            out,
+            "  limits of floor and motors bound in {:.2} % of the ticks",
+            100.0 * limits.active_share
+        )?;
         if let Some(WorstLimit { limit, leg, joint, time_s, .. }) = limits.worst {
             let joint = joint.map_or_else(String::new, |joint| format!(" of joint {joint}"));
             write!(out, ", most of all: {limit}{joint}, {leg} leg, at {time_s} s")?;

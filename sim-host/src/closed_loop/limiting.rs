@@ -68,9 +68,9 @@ impl<T: Real> Limiting<T> {
         }
         let weight = biped::TREE.mass() * 9.81;
         let ground = Ground {
-            least_force: T::of(env("LF", LEAST_FORCE)),
+            least_force: T::of(LEAST_FORCE),
             greatest_force: T::of(MOST_WEIGHTS * weight),
-            friction: T::of(env("FS", FRICTION_SHARE) * friction(floor)),
+            friction: T::of(FRICTION_SHARE * friction(floor)),
         };
         let mut torques = biped::LIMITS.joints.map(|leg| leg.map(|joint| joint.torque));
         if let Some(motors) = scene.acting.torque_limits_nm {
@@ -79,8 +79,6 @@ impl<T: Real> Limiting<T> {
         let soles = [sole(*outline); 2];
         let limits = WrenchLimits::new(robot, &soles, ground, &torques.map(|leg| leg.map(T::of)))
             .expect("a checked floor, and a robot of this program");
-        let mut limits = limits;
-        tune(&mut limits); // TUNE
         let (memory, tally) = (LimitMemory::new(), LimitTally::default());
         Some(Self { limits, memory, contacts: [true; 2], time_s: 0.0, tally })
     }
@@ -88,7 +86,6 @@ impl<T: Real> Limiting<T> {
     /// Which feet touch the ground at the next tick, and when that is.
     pub fn touch(&mut self, time_s: f64, feet: &[bool]) {
         self.time_s = time_s;
-        if env("ALL", 0.0) > 0.0 { return; }
         for (to, touches) in self.contacts.iter_mut().zip(feet) {
             *to = *touches;
         }
@@ -145,7 +142,8 @@ impl<T: Real> Limiting<T> {
 
     /// Goes on with them.
     pub fn resume(&mut self, rows: &[(u8, f64)]) {
-        self.memory = LimitMemory::of(rows.iter().map(|(row, multiplier)| (*row, T::of(*multiplier))));
+        self.memory =
+            LimitMemory::of(rows.iter().map(|(row, multiplier)| (*row, T::of(*multiplier))));
     }
 }
 
@@ -158,32 +156,12 @@ fn friction(floor: &Floor) -> f64 {
 fn sole<T: Real>(outline: Outline) -> Sole<T> {
     let outline = outline.sole();
     let range = |[least, greatest]: [f64; 2]| {
-        let (middle, half) = (0.5 * (least + greatest), 0.5 * env("SS", SOLE_SHARE) * (greatest - least));
+        let (middle, half) = (0.5 * (least + greatest), 0.5 * SOLE_SHARE * (greatest - least));
         [T::of(middle - half), T::of(middle + half)]
     };
     Sole {
         x: range([-outline.toe, outline.heel]),
         y: range([-outline.half_width, outline.half_width]),
         z: T::of(SOLE_HEIGHT),
-    }
-}
-
-fn env(name: &str, default: f64) -> f64 {
-    std::env::var(name).ok().and_then(|x| x.parse().ok()).unwrap_or(default)
-}
-fn tune<T: Real>(limits: &mut WrenchLimits<T, 2>) {
-    let w = &mut limits.weights;
-    w.regularization = T::of(env("EPS", w.regularization.to_f64()));
-    w.norm_length = T::of(env("ELL", w.norm_length.to_f64()));
-    if let Ok(text) = std::env::var("W") {
-        for (to, x) in w.task.iter_mut().zip(text.split(',')) {
-            *to = T::of(x.parse().unwrap());
-        }
-    }
-    limits.settings.softness = T::of(env("SOFT", 1e-3));
-    for leg in &mut limits.legs {
-        for t in &mut leg.torques {
-            *t *= T::of(env("TS", 1.0));
-        }
     }
 }

@@ -10,7 +10,8 @@
 use core::hint::black_box;
 use nalgebra::Vector3;
 use surefoot::balance::{
-    Controller, FootLimits, Gains, LeggedRobot, Reference, RobotState, Sole, WorkspaceForm, tick,
+    Controller, FootLimits, Gains, Ground, LeggedRobot, LimitMemory, Reference, RobotState, Sole,
+    Supervisor, WorkspaceForm, WrenchLimits, limited_tick, tick,
 };
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
@@ -39,6 +40,45 @@ pub fn opaque_tick() {
     });
     let reference = black_box(Reference::at_rest(position, Quaternion::identity()));
     let _ = black_box(tick(&controller, &state, &reference));
+}
+
+/// The same within limits, under a supervisor, with a memory of anything.
+#[inline(always)]
+pub fn opaque_limited_tick() {
+    let controller = Controller {
+        gains: black_box(Gains::experiments()),
+        form: black_box(WorkspaceForm::BigBase { factor: 1e3 }),
+        singularity: black_box(0.01),
+        ..Controller::new(black_box(&ROBOT))
+    };
+    let sole = black_box(Sole { x: [-0.2, 0.05], y: [-0.05, 0.05], z: -0.06 });
+    let ground = black_box(Ground { least_force: 5.0, greatest_force: 2000.0, friction: 0.24 });
+    let torques = black_box([[200.0; 6]; 2]);
+    let Ok(limits) = WrenchLimits::new(&ROBOT, &[sole; 2], ground, &torques) else { return };
+    let limits = black_box(limits);
+    let position = Vector3::new(0.0, 0.0, 1.035);
+    let state = black_box(RobotState {
+        position,
+        orientation: Quaternion::identity(),
+        velocity: Twist::zero(),
+        joint_angles: [[0.0, 0.698, 0.0, -1.352, 0.0, 0.654]; 2],
+        joint_rates: [[0.0; 6]; 2],
+    });
+    let reference = black_box(Reference::at_rest(position, Quaternion::identity()));
+    let contacts = black_box([true; 2]);
+    let rows = black_box([(3_u8, 1.0_f32); 20]);
+    let mut memory = black_box(LimitMemory::of(rows));
+    let Ok(mut supervisor) = Supervisor::new(black_box(biped::LIMITS.to_f32()), 2e-3) else {
+        return;
+    };
+    supervisor.arm();
+    let mut report = None;
+    let answer = supervisor.step_with(Some(&state), &reference, false, |now| {
+        let answer = limited_tick(&controller, &limits, now, &reference, &contacts, &mut memory)?;
+        report = Some(answer.limits);
+        Ok(answer.command)
+    });
+    black_box((answer, report, memory));
 }
 
 /// Ends an image: there is nothing more to do, and nowhere to return to.

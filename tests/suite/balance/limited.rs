@@ -262,9 +262,8 @@ fn feet_in_the_air_carry_nothing() {
     for _ in 0..100 {
         let state = stance(&mut rng, 1.0);
         let mut memory = LimitMemory::new();
-        let mut play = |contacts| {
-            limited(&controller, &limits, &state, contacts, &mut memory).expect("bent")
-        };
+        let mut play =
+            |contacts| limited(&controller, &limits, &state, contacts, &mut memory).expect("bent");
         let flight = play([false; 2]);
         let mut positions = [0.0; 19];
         positions[..3].copy_from_slice(state.position.as_slice());
@@ -403,7 +402,8 @@ fn harsh_states_never_give_bad_numbers() {
     for i in 0..20_000 {
         let mut state = random_state(&mut rng);
         state.velocity = Twist::from_array(symmetric(&mut rng));
-        state.joint_rates = [symmetric(&mut rng), symmetric(&mut rng)].map(|leg| leg.map(|x: f64| 3.0 * x));
+        state.joint_rates =
+            [symmetric(&mut rng), symmetric(&mut rng)].map(|leg| leg.map(|x: f64| 3.0 * x));
         let contacts = [i % 7 != 0, i % 11 != 0];
         if i % 5 == 0 {
             let rows = (0..12).map(|_| (rng.random_range(0..=255), rng.random_range(-1.0..1e4)));

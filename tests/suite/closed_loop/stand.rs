@@ -1,78 +1,91 @@
-//! The biped that stands within limits, pushed.
+//! The biped that stands within limits, pushed for a tenth of a second.
 
-use surefoot_sim::closed_loop::{self, Run, Scalar, bare_controller, controller};
-use surefoot_sim::scene::{Push, Scene, load};
+use surefoot_sim::closed_loop::{self, Outcome, Run, Scalar, bare_controller, controller};
+use surefoot_sim::scene::{Distribution, Push, Scene, load};
 
-fn pushed(impulse: f64, degrees: f64, is_supervised: bool) -> (Scene, Run) {
+/// Directions, from backwards to the right side to forwards, with the largest impulse that is survived
+/// and all below it, N·s (`push_limits 1`).
+const LIMITS: [(f64, f64); 5] =
+    [(0.0, 32.0), (45.0, 44.0), (90.0, 40.0), (135.0, 32.0), (180.0, 22.0)];
+
+fn pushed(impulse: f64, degrees: f64) -> Scene {
     let mut scene = load("stand").expect("built in");
-    let gain = |name: &str, default: f64| {
-        std::env::var(name).ok().and_then(|x| x.parse().ok()).unwrap_or(default)
-    };
-    let c = &mut scene.controller;
-    c.orientation_gain = [gain("KR", 50.0); 3];
-    c.angular_velocity_gain = [gain("DR", 7.07); 3];
-    let (kp, dp) = (gain("KP", 50.0), gain("DP", 7.07));
-    c.position_gain = [kp, kp, gain("KZ", 200.0)];
-    c.velocity_gain = [dp, dp, gain("DZ", 14.142)];
     let (sine, cosine) = degrees.to_radians().sin_cos();
     let force = impulse / 0.1;
-    scene.duration_s = gain("T", 3.0);
-    scene.pushes =
-        vec![Push { at_s: 0.7, duration_s: 0.1, force_n: [force * cosine, force * sine, 0.0] }];
-    let scalar = Scalar::F64;
-    let mut controller = if is_supervised {
-        controller(&scene, scalar)
-    } else {
-        bare_controller(&scene, scalar)
-    };
-    let run = closed_loop::run(&scene, controller.as_mut(), &mut |_| {});
-    (scene, run)
+    let force_n = [force * cosine, force * sine, 0.0];
+    scene.pushes = vec![Push { at_s: 0.7, duration_s: 0.1, force_n }];
+    scene
 }
 
+fn play(scene: &Scene, scalar: Scalar) -> Run {
+    closed_loop::run(scene, controller(scene, scalar).as_mut(), &mut |_| {})
+}
+
+/// On its feet and near the set point at the end; not stopped by its supervisor.
 fn survives(run: &Run) -> bool {
     let Some(last) = run.samples.last() else { return false };
     run.failure.is_none() && last.error_distance() < 0.05 && last.error_angle() < 5_f64.to_radians()
 }
 
 #[test]
-#[ignore = "measures"]
-fn tune() {
-    let mut line = String::new();
-    for degrees in [0.0, 45.0, 90.0, 135.0, 180.0] {
-        for is_supervised in [false, true] {
-            let (mut low, mut high) = (0.0, 60.0);
-            let mut why = String::new();
-            while high - low > 0.5 {
-                let middle = 0.5 * (low + high);
-                let (_, run) = pushed(middle, degrees, is_supervised);
-                if survives(&run) {
-                    low = middle;
-                } else {
-                    high = middle;
-                    why = run.failure.map_or_else(|| "not there".into(), |f| format!("{:.2} {}", f.time_s, f.place));
-                }
+fn pushes_up_to_the_limits_are_survived() {
+    for (degrees, limit) in LIMITS {
+        for share in [0.3, 0.6, 0.9] {
+            for scalar in [Scalar::F64, Scalar::F32] {
+                let run = play(&pushed(share * limit, degrees), scalar);
+                assert!(survives(&run), "{degrees}°, {share} of {limit}: {:?}", run.failure);
+                let limits = run.limits.expect("a limited distribution");
+                assert!(limits.active_share > 0.0 && limits.worst.is_some());
+                assert_eq!(limits.unfinished, 0, "{degrees}°, {share}");
             }
-            line += &format!("{degrees} {is_supervised}: {low:.1} ({why})\n");
         }
+        let run = play(&pushed(1.1 * limit, degrees), Scalar::F64);
+        assert!(!survives(&run), "{degrees}°: more than {limit}");
     }
-    println!("{line}");
 }
 
+/// No push is lost to the supervisor alone: what it stops does not survive without it either.
 #[test]
-#[ignore = "measures"]
-fn look() {
-    let get = |name: &str, default: f64| {
-        std::env::var(name).ok().and_then(|x| x.parse().ok()).unwrap_or(default)
-    };
-    let (_, run) = pushed(get("J", 10.0), get("DEG", 0.0), get("SUP", 0.0) > 0.0);
-    for (i, s) in run.samples.iter().enumerate() {
-        if i % 25 == 0 || (i > 340 && i % 5 == 0 && i < 600) {
-            println!(
-                "{:.3} e {:6.3} {:6.3} {:6.3} | {:5.1}° | w {:5.0?} | F {:5.0?} | t {:4.0?}",
-                s.time_s, s.position_error[0], s.position_error[1], s.position_error[2],
-                s.error_angle().to_degrees(), s.desired_wrench, s.foot_forces, s.torques
-            );
-        }
+fn the_supervisor_costs_no_push() {
+    for (degrees, limit) in LIMITS {
+        let scene = pushed(1.1 * limit, degrees);
+        let mut bare = bare_controller(&scene, Scalar::F64);
+        let run = closed_loop::run(&scene, bare.as_mut(), &mut |_| {});
+        assert!(!survives(&run), "{degrees}°: {limit} N·s and a tenth, without a supervisor");
     }
-    println!("{:?} {:?} {:?}", run.outcome, run.failure, run.limits);
+}
+
+/// Without a push nothing binds once the feet have settled, and the motion is the printed one's.
+#[test]
+fn standing_is_as_with_the_printed_split() {
+    let mut scene = load("stand").expect("built in");
+    let limited = play(&scene, Scalar::F64);
+    assert_eq!(limited.outcome, Outcome::Balanced);
+    assert_eq!(limited.limits.map(|limits| limits.active_share), Some(0.0));
+    scene.controller.distribution = Distribution::LeastNorm;
+    let printed = play(&scene, Scalar::F64);
+    assert_eq!(printed.limits, None);
+    assert_eq!(limited.samples, printed.samples);
+}
+
+/// The printed split topples at a seventh of the side's limit.
+#[test]
+fn the_printed_split_topples() {
+    let mut scene = pushed(7.0, 90.0);
+    scene.controller.distribution = Distribution::LeastNorm;
+    assert!(!survives(&play(&scene, Scalar::F64)));
+}
+
+/// A run that is saved while limits bind goes on to the same bits.
+#[test]
+fn a_pushed_run_is_taken_up_again() {
+    let scene = pushed(20.0, 90.0);
+    let whole = play(&scene, Scalar::F64);
+    let mut first = scene.clone();
+    first.duration_s = 0.9;
+    let saved = play(&first, Scalar::F64).saved.expect("on its feet");
+    assert!(!saved.limit_rows.is_empty(), "limits bind");
+    let mut again = controller(&scene, Scalar::F64);
+    let rest = closed_loop::run_from(&scene, again.as_mut(), Some(&saved), &mut |_| {});
+    assert_eq!(rest.samples.last(), whole.samples.last());
 }

@@ -26,7 +26,8 @@ pub struct WrenchLimits<T, const LEGS: usize> {
     pub weights: ContactWeights<T>,
     /// How limits give way, and what a tick may spend: of its work no more than [`Self::MOST_WORK`].
     pub settings: Settings<T>,
-    /// Rate at which the joints of a leg come to rest whose foot touches nothing, 1/s.
+    /// Where limits bind or a foot is in the air, feet creep. Rate at which they come to rest, and the
+    /// joints of a leg whose foot touches nothing, 1/s.
     pub rest_rate: T,
 }
 
@@ -58,7 +59,8 @@ impl<T: Real, const LEGS: usize> WrenchLimits<T, LEGS> {
     pub const MOST_WORK: Work = 7000;
 
     /// Of rectangular soles on a floor, and of torques (N·m) by leg, hip to foot. Weights of
-    /// [`ContactWeights::standing`], δ = 1e-3, and joints that come to rest within a tenth of a second.
+    /// [`ContactWeights::standing`] with the printed norm (ℓ = 1 m), δ = 1e-3, and what moves coming to
+    /// rest at 20/s.
     ///
     /// # Errors
     /// A [`WrenchLimitsFault`] for the first number that can be no limit.
@@ -111,7 +113,7 @@ impl<T: Real, const LEGS: usize> WrenchLimits<T, LEGS> {
         }
         Ok(Self {
             legs,
-            weights: ContactWeights::standing(),
+            weights: ContactWeights { norm_length: T::one(), ..ContactWeights::standing() },
             settings: Settings { work: Self::MOST_WORK, ..Settings::new(T::of(1e-3)) },
             rest_rate: T::of(20.0),
         })

@@ -26,8 +26,7 @@ pub(super) struct Loads<T, const LEGS: usize> {
     pub hanging: [[T; LEG]; LEGS],
 }
 
-/// For the acceleration `x` of the central body. With a foot in the air the feet that stand are held
-/// exactly, whatever the form.
+/// For the acceleration `x` of the central body: what the plain tick asks for while all feet stand.
 #[inline(always)]
 pub(super) fn loads<T: Real, const LEGS: usize>(
     controller: &Controller<'_, T, LEGS>,
@@ -38,68 +37,63 @@ pub(super) fn loads<T: Real, const LEGS: usize>(
     x: Twist<T>,
 ) -> Result<Loads<T, LEGS>, Fault> {
     let (robot, singularity) = (controller.robot, controller.singularity);
+    if !contacts.iter().all(|stands| *stands) {
+        return loads_at_rest(controller, limits, central, legs, contacts, x);
+    }
     let mut at_ankles = [Wrench::zero(); LEGS];
-    let mut hanging = [[T::zero(); LEG]; LEGS];
-    let desired = if contacts.iter().all(|stands| *stands) {
-        let held = |leg: usize, w| {
-            if let Some(entry) = at_ankles.get_mut(leg) {
-                *entry = w;
-            }
-        };
-        let fixed = fixed_foot_wrench_of_legs::<T, LEGS, true>(
-            robot,
-            central,
-            legs,
-            singularity,
-            x,
-            held,
-        )?;
-        match controller.form {
-            WorkspaceForm::FixedFoot => fixed,
-            WorkspaceForm::BigBase { factor } => {
-                big_base_wrench(controller, central, legs, factor, x)?
-            }
+    let held = |leg: usize, w| {
+        if let Some(entry) = at_ankles.get_mut(leg) {
+            *entry = w;
         }
-    } else {
-        let rest_rate = limits.rest_rate;
-        some_hang(controller, central, legs, contacts, (x, rest_rate), &mut at_ankles, &mut hanging)?
+    };
+    let fixed =
+        fixed_foot_wrench_of_legs::<T, LEGS, true>(robot, central, legs, singularity, x, held)?;
+    let desired = match controller.form {
+        WorkspaceForm::FixedFoot => fixed,
+        WorkspaceForm::BigBase { factor } => big_base_wrench(controller, central, legs, factor, x)?,
     };
     let axes = sole_axes(robot, legs);
     let carried = ground_biases(robot, central, legs, &axes, at_ankles);
-    Ok(Loads { desired, carried, axes, hanging })
+    Ok(Loads { desired, carried, axes, hanging: [[T::zero(); LEG]; LEGS] })
 }
 
-/// The same wrench where not all feet stand.
+/// The same where limits bind, or a foot is in the air: then feet creep, and what moves comes to rest.
 #[inline(never)]
-fn some_hang<T: Real, const LEGS: usize>(
+pub(super) fn loads_at_rest<T: Real, const LEGS: usize>(
     controller: &Controller<'_, T, LEGS>,
+    limits: &WrenchLimits<T, LEGS>,
     central: &CentralBody<T>,
     legs: &[LegKinematics<T>; LEGS],
     contacts: &[bool; LEGS],
-    (x, rest_rate): (Twist<T>, T),
-    at_ankles: &mut [Wrench<T>; LEGS],
-    hanging: &mut [[T; LEG]; LEGS],
-) -> Result<Wrench<T>, Fault> {
+    x: Twist<T>,
+) -> Result<Loads<T, LEGS>, Fault> {
     let robot = controller.robot;
+    let mut at_ankles = [Wrench::zero(); LEGS];
+    let mut hanging = [[T::zero(); LEG]; LEGS];
     let v = central.velocity;
     let a = x.linear + v.angular.cross(&v.linear) - central.gravity;
-    let mut sum = inertial_wrench(&robot.central, &Matrix3::identity(), v.angular, x.angular, a);
+    let mut desired =
+        inertial_wrench(&robot.central, &Matrix3::identity(), v.angular, x.angular, a);
     let given = robot.legs.iter().zip(legs).zip(&robot.reach).zip(contacts);
-    let taken = at_ankles.iter_mut().zip(hanging);
+    let taken = at_ankles.iter_mut().zip(&mut hanging);
     for (number, ((((links, leg), reach), stands), (at_ankle, torques))) in
         given.zip(taken).enumerate()
     {
         if *stands {
             let jacobian = LegJacobian::new(leg, *reach, controller.singularity)
                 .ok_or(Fault::SingularLeg { leg: number })?;
-            let inertial = leg_wrench::<T, true>(links, leg, &jacobian, central, x.angular, a);
-            sum += inertial.links - inertial.ground.shifted(leg.origins[LEG - 1]);
+            let rate = Some(limits.rest_rate);
+            let inertial =
+                leg_wrench::<T, true>(links, leg, &jacobian, central, (x.angular, a), rate);
+            desired += inertial.links - inertial.ground.shifted(leg.origins[LEG - 1]);
             *at_ankle = inertial.ground;
         } else {
-            let leg = hanging_leg(links, leg, central, x.angular, a, rest_rate);
-            sum += leg.on_central_body;
+            let leg = hanging_leg(links, leg, central, x.angular, a, limits.rest_rate);
+            desired += leg.on_central_body;
             *torques = leg.torques;
         }
     }
-    Ok(sum)
+    let axes = sole_axes(robot, legs);
+    let carried = ground_biases(robot, central, legs, &axes, at_ankles);
+    Ok(Loads { desired, carried, axes, hanging })
 }

@@ -1,6 +1,6 @@
 //! One tick within limits.
 
-use super::loads::{Loads, loads};
+use super::loads::{Loads, loads, loads_at_rest};
 use super::{BrokenLimit, LimitMemory, LimitReport, LimitedCommand, WrenchLimits};
 use crate::Real;
 use crate::balance::ground_wrench::in_axes;
@@ -73,7 +73,7 @@ pub fn limited_tick<T: Real, const LEGS: usize>(
     let desired = desired_acceleration(&controller.gains, &central, state.position, reference)?;
     let mut legs = [LegKinematics::empty(); LEGS];
     walk_legs::<T, LEGS, true>(robot, &central, state, &mut legs);
-    let loads = loads(controller, limits, &central, &legs, contacts, desired.x)?;
+    let mut loads = loads(controller, limits, &central, &legs, contacts, desired.x)?;
     let mut positions = [None; LEGS];
     for ((position, leg), stands) in positions.iter_mut().zip(&legs).zip(contacts) {
         *position = stands.then_some(leg.foot.position);
@@ -84,7 +84,12 @@ pub fn limited_tick<T: Real, const LEGS: usize>(
     }
     let mut torques = torques(&legs, contacts, &wrenches, &loads)?;
     let mut report = LimitReport::free();
-    if breaks(limits, contacts, &wrenches, &torques, &loads) {
+    let is_broken = breaks(limits, contacts, &wrenches, &torques, &loads);
+    if is_broken && contacts.iter().all(|stands| *stands) {
+        loads = loads_at_rest(controller, limits, &central, &legs, contacts, desired.x)?;
+        wrenches = split(loads.desired, positions).ok_or(Fault::Overflow)?;
+    }
+    if is_broken {
         let world = (&central, &legs, contacts, &loads);
         report = within(limits, world, &mut wrenches, &mut memory.active)?;
         torques = self::torques(&legs, contacts, &wrenches, &loads)?;
@@ -158,12 +163,8 @@ fn breaks<T: Real, const LEGS: usize>(
 }
 
 /// What the program around a split needs to know of the robot.
-type World<'a, T, const LEGS: usize> = (
-    &'a CentralBody<T>,
-    &'a [LegKinematics<T>; LEGS],
-    &'a [bool; LEGS],
-    &'a Loads<T, LEGS>,
-);
+type World<'a, T, const LEGS: usize> =
+    (&'a CentralBody<T>, &'a [LegKinematics<T>; LEGS], &'a [bool; LEGS], &'a Loads<T, LEGS>);
 
 /// Brings wrenches that make the desired one within limits, as near to it as can be.
 #[inline(never)]

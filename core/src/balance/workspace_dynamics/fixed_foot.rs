@@ -75,7 +75,8 @@ pub(in crate::balance) fn fixed_foot_wrench_of_legs<
     {
         let jacobian =
             LegJacobian::new(leg, *reach, singularity).ok_or(Fault::SingularLeg { leg: number })?;
-        let inertial = leg_wrench::<T, ROTORS>(links, leg, &jacobian, central, x.angular, a);
+        let inertial =
+            leg_wrench::<T, ROTORS>(links, leg, &jacobian, central, (x.angular, a), None);
         wrench += inertial.links - inertial.ground.shifted(leg.origins[LEG - 1]);
         held(number, inertial.ground);
     }
@@ -91,21 +92,27 @@ pub(in crate::balance) struct LegWrench<T> {
 }
 
 /// That part, for the angular acceleration `alpha_1` of the central body and the acceleration `a_1` of
-/// its centre of mass less gravity.
+/// its centre of mass less gravity. A foot that creeps goes on as it does; with a rate ρ (1/s) it comes
+/// to rest, `α_6 = −ρ ω_6`, `a_6 = ω_6 × v_6 − g − ρ v_6` in place of (2).
 #[inline(always)]
 pub(in crate::balance) fn leg_wrench<T: Real, const ROTORS: bool>(
     links: &[Node<T>; LEG],
     leg: &LegKinematics<T>,
     jacobian: &LegJacobian<T>,
     central: &CentralBody<T>,
-    alpha_1: Vector3<T>,
-    a_1: Vector3<T>,
+    (alpha_1, a_1): (Vector3<T>, Vector3<T>),
+    rest_rate: Option<T>,
 ) -> LegWrench<T> {
     let zero = Vector3::zeros();
     // What the foot would do with θ̈ = 0, and by (2) should do.
     let (alpha, a) = accelerate(leg, central, alpha_1, a_1, &[T::zero(); LEG], |_, _, _| {});
     let at_rest = leg.angular_velocities[LEG - 1].cross(&leg.last_velocity) - central.gravity;
-    let theta_ddot = jacobian.solve(Twist { linear: at_rest - a, angular: -alpha });
+    let mut missing = Twist { linear: at_rest - a, angular: -alpha };
+    if let Some(rate) = rest_rate {
+        missing.linear -= leg.last_velocity * rate;
+        missing.angular -= leg.angular_velocities[LEG - 1] * rate;
+    }
+    let theta_ddot = jacobian.solve(missing);
 
     let mut forces = [Wrench { force: zero, torque: zero }; LEG];
     accelerate(leg, central, alpha_1, a_1, &theta_ddot, |k, alpha, a| {

@@ -11,8 +11,8 @@ mod hanging_leg;
 mod inertial;
 
 pub use big_base::big_base;
-pub(super) use fixed_foot::{fixed_foot_wrench_of_legs, leg_wrench};
 pub use fixed_foot::{fixed_foot_dynamics, fixed_foot_wrench};
+pub(super) use fixed_foot::{fixed_foot_wrench_of_legs, leg_wrench};
 pub(super) use hanging_leg::hanging_leg;
 pub(super) use inertial::inertial_wrench;
 
