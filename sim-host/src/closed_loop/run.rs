@@ -208,7 +208,10 @@ fn advance(
         let is_last = tick == ticks || is_interrupted;
         let memory = is_last.then(|| memory(scene, &sensors, &motors)).flatten();
         let supervisor = is_last.then(|| controller.memory()).flatten();
-        if let Some(contacts) = plant.contacts() {
+        // Before its first step a plant knows of no contact.
+        if tick > 0
+            && let Some(contacts) = plant.contacts()
+        {
             let touches = |foot: &[_; 4]| foot.iter().any(|state| *state != ContactState::Free);
             controller.touch(time, &contacts.each_ref().map(touches));
         }

@@ -56,7 +56,7 @@ pub enum WrenchLimitsFault {
 
 impl<T: Real, const LEGS: usize> WrenchLimits<T, LEGS> {
     /// Multiplications that the distribution may spend in one tick.
-    pub const MOST_WORK: Work = 7000;
+    pub const MOST_WORK: Work = 5700;
 
     /// Of rectangular soles on a floor, and of torques (N·m) by leg, hip to foot. Weights of
     /// [`ContactWeights::standing`] with the printed norm (ℓ = 1 m), δ = 1e-3, and what moves coming to

@@ -30,16 +30,11 @@ pub(super) struct Loads<T, const LEGS: usize> {
 #[inline(always)]
 pub(super) fn loads<T: Real, const LEGS: usize>(
     controller: &Controller<'_, T, LEGS>,
-    limits: &WrenchLimits<T, LEGS>,
     central: &CentralBody<T>,
     legs: &[LegKinematics<T>; LEGS],
-    contacts: &[bool; LEGS],
     x: Twist<T>,
 ) -> Result<Loads<T, LEGS>, Fault> {
     let (robot, singularity) = (controller.robot, controller.singularity);
-    if !contacts.iter().all(|stands| *stands) {
-        return loads_at_rest(controller, limits, central, legs, contacts, x);
-    }
     let mut at_ankles = [Wrench::zero(); LEGS];
     let held = |leg: usize, w| {
         if let Some(entry) = at_ankles.get_mut(leg) {
@@ -58,7 +53,7 @@ pub(super) fn loads<T: Real, const LEGS: usize>(
 }
 
 /// The same where limits bind, or a foot is in the air: then feet creep, and what moves comes to rest.
-#[inline(never)]
+#[inline(always)]
 pub(super) fn loads_at_rest<T: Real, const LEGS: usize>(
     controller: &Controller<'_, T, LEGS>,
     limits: &WrenchLimits<T, LEGS>,

@@ -12,6 +12,10 @@
 //! Limits are about what the *ground* gives a foot: the wrench of its leg's joints and what the leg's
 //! links weigh and resist.
 //!
+//! # What creeps
+//! A foot that bears little slides, and the wrench for feet that stand still would let it go on as it
+//! does. Where limits bind, feet are asked to come to rest at [`WrenchLimits::rest_rate`].
+//!
 //! # Feet in the air
 //! A foot that its caller says to be in the air carries nothing: the others share the wrench, which then
 //! carries that leg as well, and its joints come to rest where they are. With no foot on the ground all

@@ -68,45 +68,40 @@ pub fn limited_tick<T: Real, const LEGS: usize>(
     memory: &mut LimitMemory<T>,
 ) -> Result<LimitedCommand<T, LEGS>, Fault> {
     check_finite(state, reference)?;
-    let robot = controller.robot;
-    let central = central_body(robot, state)?;
+    let central = central_body(controller.robot, state)?;
     let desired = desired_acceleration(&controller.gains, &central, state.position, reference)?;
     let mut legs = [LegKinematics::empty(); LEGS];
-    walk_legs::<T, LEGS, true>(robot, &central, state, &mut legs);
-    let mut loads = loads(controller, limits, &central, &legs, contacts, desired.x)?;
-    let mut positions = [None; LEGS];
-    for ((position, leg), stands) in positions.iter_mut().zip(&legs).zip(contacts) {
-        *position = stands.then_some(leg.foot.position);
+    walk_legs::<T, LEGS, true>(controller.robot, &central, state, &mut legs);
+    let robot = Standing { controller, limits, central: &central, legs: &legs, contacts };
+    let is_standing = contacts.iter().all(|stands| *stands);
+    let was_free = memory.active.is_empty();
+    let mut asked =
+        if is_standing && was_free { robot.plain(desired.x)? } else { robot.at_rest(desired.x)? };
+    if is_standing && asked.is_broken == was_free {
+        // Limits that begin to bind, or cease to.
+        if was_free {
+            let at_rest = robot.at_rest(desired.x)?;
+            asked = if at_rest.is_broken { at_rest } else { asked };
+        } else {
+            asked = robot.plain(desired.x)?;
+        }
     }
-    let mut wrenches = [Wrench::zero(); LEGS];
-    if contacts.iter().any(|stands| *stands) {
-        wrenches = split(loads.desired, positions).ok_or(Fault::Overflow)?;
-    }
-    let mut torques = torques(&legs, contacts, &wrenches, &loads)?;
+    let Asked { loads, mut wrenches, mut torques, is_broken } = asked;
     let mut report = LimitReport::free();
-    let is_broken = breaks(limits, contacts, &wrenches, &torques, &loads);
-    if is_broken && contacts.iter().all(|stands| *stands) {
-        loads = loads_at_rest(controller, limits, &central, &legs, contacts, desired.x)?;
-        wrenches = split(loads.desired, positions).ok_or(Fault::Overflow)?;
-    }
     if is_broken {
-        let world = (&central, &legs, contacts, &loads);
-        report = within(limits, world, &mut wrenches, &mut memory.active)?;
-        torques = self::torques(&legs, contacts, &wrenches, &loads)?;
+        report = within(&robot, &loads, &mut wrenches, &mut memory.active)?;
+        torques = robot.torques(&loads, &wrenches)?;
     } else {
         memory.active = ActiveRows::new();
     }
-    if report.is_limited() || !contacts.iter().all(|stands| *stands) {
+    if report.is_limited() || !is_standing {
         for (torques, limits) in torques.iter_mut().zip(&limits.legs) {
             for (torque, limit) in torques.iter_mut().zip(&limits.torques) {
                 *torque = torque.max(-*limit).min(*limit);
             }
         }
-        let feet = wrenches.iter().zip(positions);
-        let made = feet.fold(Wrench::zero(), |sum, (w, position)| match position {
-            Some(position) => sum + w.shifted(position),
-            None => sum,
-        });
+        let feet = wrenches.iter().zip(&legs);
+        let made = feet.fold(Wrench::zero(), |sum, (w, leg)| sum + w.shifted(leg.foot.position));
         report.given_up = loads.desired - made;
     }
     let command = Command {
@@ -119,63 +114,107 @@ pub fn limited_tick<T: Real, const LEGS: usize>(
     Ok(LimitedCommand { command, limits: report })
 }
 
-/// Alg. 4.6 for the legs that stand; the others hold themselves.
-#[inline(always)]
-fn torques<T: Real, const LEGS: usize>(
-    legs: &[LegKinematics<T>; LEGS],
-    contacts: &[bool; LEGS],
-    wrenches: &[Wrench<T>; LEGS],
-    loads: &Loads<T, LEGS>,
-) -> Result<[[T; LEG]; LEGS], Fault> {
-    let mut torques = loads.hanging;
-    for (((torques, leg), stands), w) in torques.iter_mut().zip(legs).zip(contacts).zip(wrenches) {
-        if *stands {
-            *torques = joint_torques(leg, *w);
-        }
-        if !torques.iter().all(|x| x.is_finite()) {
-            return Err(Fault::Overflow);
-        }
-    }
-    Ok(torques)
+/// The robot at a tick.
+struct Standing<'a, T, const LEGS: usize> {
+    controller: &'a Controller<'a, T, LEGS>,
+    limits: &'a WrenchLimits<T, LEGS>,
+    central: &'a CentralBody<T>,
+    legs: &'a [LegKinematics<T>; LEGS],
+    contacts: &'a [bool; LEGS],
 }
 
-/// Whether wrenches break a limit of a foot that stands.
-#[inline(always)]
-fn breaks<T: Real, const LEGS: usize>(
-    limits: &WrenchLimits<T, LEGS>,
-    contacts: &[bool; LEGS],
-    wrenches: &[Wrench<T>; LEGS],
-    torques: &[[T; LEG]; LEGS],
-    loads: &Loads<T, LEGS>,
-) -> bool {
-    let held = RowSet::default();
-    let mut search = Search::new(&held, limits.settings.tolerance);
-    let feet = limits.legs.iter().zip(contacts).zip(wrenches).zip(torques);
-    for ((((limits, stands), w), torques), (axes, carried)) in
-        feet.zip(loads.axes.iter().zip(&loads.carried))
-    {
-        if *stands {
-            limits.scan_contact(&(in_axes(axes, w) + *carried), 0, &mut search);
-            limits.scan_torques(|k| torques[k], 0, &mut search);
-        }
-    }
-    search.worst().is_some()
+/// The printed split of what is asked for, and whether it breaks a limit.
+struct Asked<T, const LEGS: usize> {
+    loads: Loads<T, LEGS>,
+    /// On the feet, frame 1's axes.
+    wrenches: [Wrench<T>; LEGS],
+    torques: [[T; LEG]; LEGS],
+    is_broken: bool,
 }
 
-/// What the program around a split needs to know of the robot.
-type World<'a, T, const LEGS: usize> =
-    (&'a CentralBody<T>, &'a [LegKinematics<T>; LEGS], &'a [bool; LEGS], &'a Loads<T, LEGS>);
+impl<T: Real, const LEGS: usize> Standing<'_, T, LEGS> {
+    /// As the plain tick asks.
+    #[inline(never)]
+    fn plain(&self, x: Twist<T>) -> Result<Asked<T, LEGS>, Fault> {
+        self.split(loads(self.controller, self.central, self.legs, x)?)
+    }
+
+    /// With what creeps coming to rest.
+    #[inline(never)]
+    fn at_rest(&self, x: Twist<T>) -> Result<Asked<T, LEGS>, Fault> {
+        let Self { controller, limits, central, legs, contacts } = self;
+        self.split(loads_at_rest(controller, limits, central, legs, contacts, x)?)
+    }
+
+    #[inline(always)]
+    fn split(&self, loads: Loads<T, LEGS>) -> Result<Asked<T, LEGS>, Fault> {
+        let mut positions = [None; LEGS];
+        for ((position, leg), stands) in positions.iter_mut().zip(self.legs).zip(self.contacts) {
+            *position = stands.then_some(leg.foot.position);
+        }
+        let mut wrenches = [Wrench::zero(); LEGS];
+        if self.contacts.iter().any(|stands| *stands) {
+            wrenches = split(loads.desired, positions).ok_or(Fault::Overflow)?;
+        }
+        let torques = self.torques(&loads, &wrenches)?;
+        let is_broken = self.breaks(&loads, &wrenches, &torques);
+        Ok(Asked { loads, wrenches, torques, is_broken })
+    }
+
+    /// Alg. 4.6 for the legs that stand; the others hold themselves.
+    #[inline(always)]
+    fn torques(
+        &self,
+        loads: &Loads<T, LEGS>,
+        wrenches: &[Wrench<T>; LEGS],
+    ) -> Result<[[T; LEG]; LEGS], Fault> {
+        let mut torques = loads.hanging;
+        let given = self.legs.iter().zip(self.contacts).zip(wrenches);
+        for (torques, ((leg, stands), w)) in torques.iter_mut().zip(given) {
+            if *stands {
+                *torques = joint_torques(leg, *w);
+            }
+            if !torques.iter().all(|x| x.is_finite()) {
+                return Err(Fault::Overflow);
+            }
+        }
+        Ok(torques)
+    }
+
+    /// Whether wrenches break a limit of a foot that stands.
+    #[inline(always)]
+    fn breaks(
+        &self,
+        loads: &Loads<T, LEGS>,
+        wrenches: &[Wrench<T>; LEGS],
+        torques: &[[T; LEG]; LEGS],
+    ) -> bool {
+        let held = RowSet::default();
+        let mut search = Search::new(&held, self.limits.settings.tolerance);
+        let feet = self.limits.legs.iter().zip(self.contacts).zip(wrenches).zip(torques);
+        for ((((limits, stands), w), torques), (axes, carried)) in
+            feet.zip(loads.axes.iter().zip(&loads.carried))
+        {
+            if *stands {
+                limits.scan_contact(&(in_axes(axes, w) + *carried), 0, &mut search);
+                limits.scan_torques(|k| torques[k], 0, &mut search);
+            }
+        }
+        search.worst().is_some()
+    }
+}
 
 /// Brings wrenches that make the desired one within limits, as near to it as can be.
 #[inline(never)]
 fn within<T: Real, const LEGS: usize, const K: usize>(
-    limits: &WrenchLimits<T, LEGS>,
-    (central, legs, contacts, loads): World<'_, T, LEGS>,
+    robot: &Standing<'_, T, LEGS>,
+    loads: &Loads<T, LEGS>,
     wrenches: &mut [Wrench<T>; LEGS],
     active: &mut ActiveRows<T, K>,
 ) -> Result<LimitReport<T, LEGS>, Fault> {
+    let Standing { limits, central, legs, contacts, .. } = robot;
     let mut feet = [None; LEGS];
-    let given = legs.iter().zip(contacts).zip(&limits.legs);
+    let given = legs.iter().zip(*contacts).zip(&limits.legs);
     for ((foot, ((leg, stands), limits)), (axes, carried)) in
         feet.iter_mut().zip(given).zip(loads.axes.iter().zip(&loads.carried))
     {
