@@ -21,6 +21,8 @@ pub fn scenes() -> Vec<Named> {
     all.push(("every-joint".into(), EVERY_JOINT.into()));
     all.extend(loops());
     all.push(("welded-and-pushed".into(), read("experiment-1-welded") + PUSHES));
+    let limited = "distribution = \"limited\"\ntorques_from";
+    all.push(("limited".into(), read("experiment-2").replace("torques_from", limited)));
     all.push((
         "hardware".into(),
         read("experiment-1").replace("step_s = 2e-3", "step_s = 1e-3") + HARDWARE,
