@@ -22,7 +22,8 @@ use crate::spatial::{Twist, Wrench};
 /// A [`Fault`] as of [`tick`](crate::balance::tick). Limits that bind are none.
 ///
 /// # Cost
-/// Where nothing binds, a tenth more than [`tick`](crate::balance::tick); else, at most
+/// Where nothing binds, a fifth more than [`tick`](crate::balance::tick); else, the stages before it once
+/// more where limits begin or cease to bind, and at most
 /// [`WrenchLimits::MOST_WORK`] multiplications more. No allocation, no panic.
 ///
 /// ```
@@ -55,7 +56,7 @@ use crate::spatial::{Twist, Wrench};
 /// // Pushed to the side: more than the soles can take.
 /// state.velocity.linear.y = 0.6;
 /// let pushed = limited_tick(&controller, &limits, &state, &reference, &[true; 2], &mut memory)?;
-/// assert!(pushed.limits.worst.is_some() && pushed.limits.given_up.torque.x.abs() > 1.0);
+/// assert!(pushed.limits.worst.is_some() && pushed.limits.given_up.force.y.abs() > 1.0);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[inline]
