@@ -7,11 +7,11 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeCone
 use surefoot::qp::DenseProgram;
 use surefoot_tests::random_trees::random;
 
-/// Unknowns (x, s): `½ (x − x₀)ᵀ H (x − x₀) + ½ |s|²/δ`, `A x + s ≥ b`.
+/// `None` where it gives up. Unknowns (x, s): `½ (x − x₀)ᵀ H (x − x₀) + ½ |s|²/δ`, `A x + s ≥ b`.
 pub fn by_clarabel<const N: usize, const M: usize>(
     program: &DenseProgram<f64, N, M>,
     softness: f64,
-) -> [f64; N] {
+) -> Option<[f64; N]> {
     let width = N + M;
     let mut hessian = vec![vec![0.0; width]; width];
     for i in 0..N {
@@ -50,8 +50,8 @@ pub fn by_clarabel<const N: usize, const M: usize>(
     .expect("a valid program");
     solver.solve();
     let status = solver.solution.status;
-    assert!(matches!(status, SolverStatus::Solved | SolverStatus::AlmostSolved), "{status:?}");
-    std::array::from_fn(|i| solver.solution.x[i])
+    let is_solved = matches!(status, SolverStatus::Solved | SolverStatus::AlmostSolved);
+    is_solved.then(|| std::array::from_fn(|i| solver.solution.x[i]))
 }
 
 fn csc(rows: &[Vec<f64>]) -> CscMatrix<f64> {
@@ -76,12 +76,12 @@ fn clarabel_agrees() {
     for _ in 0..200 {
         let program = random_program::<6, 20>(&mut rng);
         let (ours, _) = cold(&program, 1e-3);
-        worst = worst.max(distance(&ours.x, &by_clarabel(&program, 1e-3)));
+        worst = worst.max(distance(&ours.x, &by_clarabel(&program, 1e-3).expect("solved")));
     }
     for _ in 0..20 {
         let program = random_program::<24, 60>(&mut rng);
         let (ours, _) = cold(&program, 1e-3);
-        worst = worst.max(distance(&ours.x, &by_clarabel(&program, 1e-3)));
+        worst = worst.max(distance(&ours.x, &by_clarabel(&program, 1e-3).expect("solved")));
     }
     println!("largest difference {worst:e}");
     assert!(worst < 1e-7);
