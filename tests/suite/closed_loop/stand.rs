@@ -6,7 +6,7 @@ use surefoot_sim::scene::{Distribution, Push, Scene, load};
 /// Directions, from backwards to the right side to forwards, with the largest impulse that is survived
 /// and all below it, N·s (`push_limits 1`).
 const LIMITS: [(f64, f64); 5] =
-    [(0.0, 32.0), (45.0, 44.0), (90.0, 40.0), (135.0, 32.0), (180.0, 23.0)];
+    [(0.0, 32.0), (45.0, 44.0), (90.0, 38.0), (135.0, 32.0), (180.0, 23.0)];
 
 fn pushed(impulse: f64, degrees: f64) -> Scene {
     let mut scene = load("stand").expect("built in");
