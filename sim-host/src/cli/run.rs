@@ -7,7 +7,7 @@ use super::report::{self, Report};
 use super::run_mechanism::run_mechanism;
 use super::{RUN_FAILED, bad_input, complain, recommended, say};
 use crate::chart::RUN_FIGURES;
-use crate::closed_loop::{self, Run, Scalar};
+use crate::closed_loop::{self, Run};
 use crate::follow::Until;
 use crate::integrators::Method;
 use crate::picture::Shown;
@@ -138,7 +138,7 @@ fn run_robot(scene: Scene, options: &Options) -> Result<ExitCode, String> {
     let scalar = options.controller.scalar();
     let saved = options.saved(scene.duration_s)?;
     if let Some(saved) = &saved {
-        belongs(saved, &scene, scalar)?;
+        belongs(saved, &scene, &options.controller)?;
     }
     let folder = options.folder(&scene.name, saved.as_ref());
     keeps_record(&folder, saved.as_ref())?;
@@ -182,11 +182,22 @@ fn run_robot(scene: Scene, options: &Options) -> Result<ExitCode, String> {
 }
 
 /// Refuses a saved run of another motion.
-fn belongs(saved: &SavedRun, scene: &Scene, scalar: Scalar) -> Result<(), String> {
+fn belongs(saved: &SavedRun, scene: &Scene, options: &ControllerOptions) -> Result<(), String> {
+    let scalar = options.scalar();
     let other = saved.motion.difference(&MotionIdentity::of_robot(scene));
     let other = other.or_else(|| {
         let of_saved = saved.scalar.filter(|of_saved| *of_saved != scalar)?;
         Some(format!("--scalar {of_saved:?}, not {scalar:?}").to_lowercase())
+    });
+    // A supervisor on the target keeps what it remembers to itself.
+    let other = other.or_else(|| match (&saved.supervisor, options.place) {
+        (Some(_), Place::Bare) => {
+            Some("its controller had a supervisor, --controller bare has none".into())
+        }
+        (None, Place::Host) => {
+            Some("its controller had no supervisor here, --controller host has one".into())
+        }
+        _ => None,
     });
     match other {
         None => Ok(()),
