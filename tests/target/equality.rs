@@ -19,7 +19,7 @@ impl Controller for Twins {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let answer = self.target.tick(state)?;
         let host = self.host.tick(state)?;
-        for (host, target) in host.torques.iter().zip(answer.torques) {
+        for (host, target) in host.torques.iter().zip(&answer.torques) {
             assert_eq!(host.to_bits(), target.to_bits(), "tick {}", self.compared / 12);
             self.compared += 1;
         }

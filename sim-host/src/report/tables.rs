@@ -3,7 +3,8 @@
 use super::Report;
 use crate::closed_loop::{Peaks, Run};
 use crate::experiments::{Comparison, printed_figures, reading};
-use crate::record::{Event, JOINTS, Settling};
+use crate::record::{Event, Settling};
+use crate::robot::Robot;
 use crate::scene::{Feet, TorquesFrom};
 
 /// A line of the summary.
@@ -64,7 +65,7 @@ pub(super) struct Peak {
 }
 
 /// Peaks of the desired wrench and of all joints.
-pub(super) fn peaks(run: &Run) -> Vec<Peak> {
+pub(super) fn peaks(robot: &Robot, run: &Run) -> Vec<Peak> {
     let Some(peaks) = Peaks::of(&run.samples) else { return Vec::new() };
     let row = |name: String, peak: crate::closed_loop::Peak, unit: &str| Peak {
         name,
@@ -75,8 +76,8 @@ pub(super) fn peaks(run: &Run) -> Vec<Peak> {
     for (axis, peak) in ["x", "y", "z"].iter().zip(peaks.torque) {
         rows.push(row(format!("desired torque about {axis}"), peak, "N·m"));
     }
-    for (joint, peak) in JOINTS.iter().zip(peaks.joints) {
-        rows.push(row((*joint).to_owned(), peak, "N·m"));
+    for (joint, peak) in robot.joints.iter().zip(peaks.joints) {
+        rows.push(row(joint.clone(), peak, "N·m"));
     }
     rows
 }

@@ -178,13 +178,14 @@ impl Initial {
     pub fn state(&self) -> PlantState {
         let axis = Vector3::from(self.turn_axis).normalize();
         let q = Quaternion::from_axis_angle(axis, self.turn_deg.to_radians());
-        let mut positions = [0.0; crate::plant::NQ];
+        let angles: Vec<f64> = self.left_leg_deg.into_iter().chain(self.right_leg_deg).collect();
+        let mut state = PlantState::home(angles.len());
+        let positions = &mut state.positions;
         positions[..3].copy_from_slice(&self.position_m);
         positions[3..7].copy_from_slice(&q.to_array());
-        let angles = self.left_leg_deg.iter().chain(&self.right_leg_deg);
         for (to, degrees) in positions[7..].iter_mut().zip(angles) {
             *to = degrees.to_radians();
         }
-        PlantState { positions, velocities: [0.0; crate::plant::NV] }
+        state
     }
 }

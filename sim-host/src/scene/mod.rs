@@ -28,6 +28,7 @@ pub use rung::{LUMPED_DEVIATION_M, Matters, ModelChoice, Rung};
 
 use crate::contact::Floor;
 use crate::integrators::Method;
+use crate::robot::{SharedRobot, biped};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use surefoot::model::robots::biped::SoleOutline;
@@ -75,6 +76,14 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// What moves in it.
+    pub fn robot(&self) -> SharedRobot {
+        match self.feet {
+            Feet::Floor { outline, .. } => biped(outline),
+            Feet::Welded {} => biped(Outline::A),
+        }
+    }
+
     /// What all pushes do to the central body on average from one time to a later one, world frame; `None` where there
     /// is none. Each counts by the share of that time in which it acts, so that its impulse is exact.
     pub fn push(&self, from_s: f64, to_s: f64) -> Option<Wrench<f64>> {

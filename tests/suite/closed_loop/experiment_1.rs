@@ -62,7 +62,7 @@ fn single_precision_balances_and_stays_close_to_double() {
     let double = play(|_| {}, Scalar::F64);
     assert_balanced(&single);
     for (a, b) in single.samples.iter().zip(&double.samples) {
-        for (x, y) in a.torques.iter().zip(b.torques) {
+        for (x, y) in a.torques.iter().zip(&b.torques) {
             assert!((x - y).abs() < 0.5, "at {} s: {x} against {y} N·m", a.time_s);
         }
     }
