@@ -89,7 +89,7 @@ fn supervisors_are_the_same_to_the_last_bit() {
     ] {
         let mut scene = load(name).expect("built in");
         if let Feet::Floor { outline, floor } = &mut scene.feet {
-            *outline = sole;
+            *outline = Some(sole);
             (floor.static_friction, floor.dynamic_friction) = (friction, friction);
         }
         let target = FirmwareController::new(target(), &scene).expect("obeyed");

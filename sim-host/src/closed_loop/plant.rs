@@ -2,7 +2,7 @@
 
 use crate::integrators::Method;
 use crate::plant::{Additions, OnFloor, Plant, StepFailure, Struck, Variational, Welded};
-use crate::scene::{Block, Feet, Scene};
+use crate::scene::{Block, Feet, Outline, Scene};
 
 /// No contact code where feet are welded, no block and no stops where the scene has none, no more bodies than
 /// matter.
@@ -25,7 +25,8 @@ pub fn plant(scene: &Scene) -> Result<Box<dyn Plant>, StepFailure> {
     }
     let (robot, floor): (Box<dyn Plant>, _) = match &scene.feet {
         Feet::Floor { outline, floor } => {
-            let robot = OnFloor::new(&start, *floor, &outline.sole()).with_stops(stops);
+            let sole = outline.unwrap_or(Outline::A).sole();
+            let robot = OnFloor::new(&start, *floor, &sole).with_stops(stops);
             (Box::new(robot), Some(*floor))
         }
         Feet::Welded {} => (Box::new(Welded::new(&start)?.with_stops(stops)), None),

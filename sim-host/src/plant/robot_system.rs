@@ -6,7 +6,7 @@ use crate::multibody::{
     BodyState, Closing, Closure, Frame, Joint, Link, Reduced, Seat, System, SystemError, lumped,
     merged, rerooted,
 };
-use crate::robot::Robot;
+use crate::robot::{Robot, Start};
 
 /// Motors of one joint.
 #[derive(Clone, Copy, Debug)]
@@ -49,8 +49,8 @@ impl RobotSystem {
     /// # Errors
     /// [`StepFailure::Dynamics`] for no configuration.
     pub fn new(robot: &Robot, model: RobotModel, state: &PlantState) -> Result<Self, StepFailure> {
-        let full = robot.tree.system()?;
-        let (states, rates) = robot.tree.states(&state.positions, &state.velocities)?;
+        let Start { system: full, frames, states, rates } =
+            robot.tree.start(&state.positions, &state.velocities)?;
         let tree = |link| Seat::Tree { link, is_reversed: false };
         if model == RobotModel::Full {
             return Ok(Self {
@@ -63,9 +63,9 @@ impl RobotSystem {
                 feet: robot
                     .feet
                     .iter()
-                    .map(|foot| Foot::Free(foot.body, Frame::IDENTITY))
+                    .map(|foot| Foot::Free(foot.body, frames[foot.body]))
                     .collect(),
-                central: (0, Frame::IDENTITY),
+                central: (0, frames[0]),
                 still_energy: 0.0,
             });
         }

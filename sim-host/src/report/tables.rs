@@ -51,7 +51,8 @@ pub(super) fn facts(report: &Report<'_>) -> Vec<Fact> {
 fn feet(feet: &Feet) -> String {
     match feet {
         Feet::Floor { outline, floor } => {
-            format!("on a floor with friction {}, soles {outline:?}", floor.static_friction)
+            let soles = outline.map_or(String::new(), |outline| format!(", soles {outline:?}"));
+            format!("on a floor with friction {}{soles}", floor.static_friction)
         }
         Feet::Welded {} => "held where they start".to_owned(),
     }

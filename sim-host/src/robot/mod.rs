@@ -4,11 +4,17 @@
 //! tells apart.
 
 mod biped;
+mod from_file;
+mod limits;
 mod sized_tree;
+pub mod stance;
+mod stand_scene;
 
 pub use biped::{SMALL_BODIES, biped};
+pub use from_file::NoLeggedRobot;
 pub(crate) use sized_tree::with_tree;
-pub use sized_tree::{LEG, MOST_LEGS, SizedTree};
+pub use sized_tree::{LEG, MOST_LEGS, SizedTree, Start};
+pub use stand_scene::stand_scene;
 
 use crate::multibody::Side;
 use crate::picture::Solid;

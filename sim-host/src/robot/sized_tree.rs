@@ -1,10 +1,11 @@
 //! Core's trees by their number of legs: the one place that tells sizes apart.
 
-use crate::multibody::{BodyState, System, SystemError, states_of_tree, system_of_tree};
-use nalgebra::Vector3;
+use crate::multibody::{BodyState, Frame, System, principal_system_of_tree, states_of_tree};
+use crate::plant::StepFailure;
+use nalgebra::{UnitQuaternion, Vector3};
 use surefoot::dynamics::{DynamicsFault, body_poses, joint_poses};
 use surefoot::model::{BodyShape, Link, Tree, TreeFault};
-use surefoot::spatial::Pose;
+use surefoot::spatial::{Pose, Quaternion};
 
 /// Joints of a leg.
 pub const LEG: usize = 6;
@@ -51,6 +52,19 @@ macro_rules! with_tree {
 }
 pub(crate) use with_tree;
 
+/// Where a tree's motion begins in the simulator.
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// Links in the tree's order.
+    pub system: System,
+    /// The bodies' frames in the links'.
+    pub frames: Vec<Frame>,
+    /// Of the links.
+    pub states: Vec<BodyState>,
+    /// Of the links.
+    pub rates: Vec<BodyState>,
+}
+
 impl SizedTree {
     /// Of a floating link and six a leg; `None` for another number of them.
     ///
@@ -82,24 +96,29 @@ impl SizedTree {
         })
     }
 
-    /// The system that moves as the tree does.
+    /// The system that moves as the tree does, with the states and rates of its links at a configuration, and the
+    /// bodies' frames of the tree in those of the links, which are along principal axes.
     ///
     /// # Errors
-    /// As for [`system_of_tree`].
-    pub fn system(&self) -> Result<System, SystemError> {
-        with_tree!(self, tree => system_of_tree(tree))
-    }
-
-    /// States and rates of all bodies.
-    ///
-    /// # Errors
-    /// A [`DynamicsFault`] for what is no configuration of the tree.
-    pub fn states(
-        &self,
-        positions: &[f64],
-        velocities: &[f64],
-    ) -> Result<(Vec<BodyState>, Vec<BodyState>), DynamicsFault> {
-        with_tree!(self, tree => states_of_tree(tree, &sized(positions), &sized(velocities)))
+    /// As for [`principal_system_of_tree`], and a [`DynamicsFault`] for what is no configuration of the tree.
+    pub fn start(&self, positions: &[f64], velocities: &[f64]) -> Result<Start, StepFailure> {
+        with_tree!(self, tree => {
+            let (system, axes) = principal_system_of_tree(tree)?;
+            let (mut states, mut rates) =
+                states_of_tree(tree, &sized(positions), &sized(velocities))?;
+            let mut frames = vec![Frame::IDENTITY; axes.len()];
+            for (k, axes) in axes.iter().enumerate() {
+                let Some(axes) = axes else { continue };
+                let turn = UnitQuaternion::from_rotation_matrix(axes);
+                let turn = Quaternion::from_array([turn.w, turn.i, turn.j, turn.k]);
+                for all in [&mut states, &mut rates] {
+                    let of_body = Quaternion::from_array(std::array::from_fn(|i| all[k][3 + i]));
+                    all[k][3..].copy_from_slice(&of_body.product(turn).to_array());
+                }
+                frames[k].orientation = turn.conjugate();
+            }
+            Ok(Start { system, frames, states, rates })
+        })
     }
 
     /// How many bodies it has.

@@ -2,14 +2,11 @@
 
 use super::check_hardware::check_hardware;
 use super::rung::check_model;
-use super::{Feet, Scene, SceneError, Workspace};
+use super::{Feet, ModelChoice, Scene, SceneError, Workspace};
 use crate::integrators::Method;
+use crate::robot::LEG;
 use nalgebra::Vector3;
-use surefoot::balance::{LeggedRobot, RobotState, central_body, leg_kinematics};
-use surefoot::model::robots::biped;
-use surefoot::spatial::{Quaternion, Twist};
-
-const ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
+use surefoot::spatial::Quaternion;
 
 /// Most steps a run may have: a day of computing, and surely a slip of the pen beyond.
 const MOST_STEPS: f64 = 1e9;
@@ -17,12 +14,38 @@ const MOST_STEPS: f64 = 1e9;
 const MOST_TICKS: f64 = 1e6;
 
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
+    of_file(scene)?;
     numbers(scene)?;
     thrown_block(scene)?;
     timing(scene)?;
     check_hardware(scene)?;
     check_model(scene)?;
     reach(scene)
+}
+
+/// What a robot from a file cannot have, as it is told of the biped only.
+fn of_file(scene: &Scene) -> Result<(), SceneError> {
+    if scene.robot.is_none() {
+        return Ok(());
+    }
+    let expected = "nothing: the robot comes from a file";
+    if let Feet::Floor { outline: Some(outline), .. } = scene.feet {
+        return Err(wrong(scene, "feet.outline", outline, expected));
+    }
+    if scene.acting.joint_stops.is_some() {
+        return Err(wrong(scene, "acting.joint_stops", "", expected));
+    }
+    if scene.block.is_some() {
+        return Err(wrong(scene, "block", "", expected));
+    }
+    if scene.integrator.name != Method::Variational {
+        let expected = format!("{} for a robot from a file", Method::Variational);
+        return Err(wrong(scene, "integrator.name", scene.integrator.name, expected));
+    }
+    if scene.model == ModelChoice::Lumped {
+        return Err(wrong(scene, "model", scene.model, "full, for a robot from a file"));
+    }
+    Ok(())
 }
 
 pub(super) fn wrong(
@@ -41,16 +64,20 @@ pub(super) fn wrong(
 }
 
 fn numbers(scene: &Scene) -> Result<(), SceneError> {
-    let (initial, set, controller) = (&scene.initial, &scene.set_point, &scene.controller);
-    let finite: [(&str, &[f64]); 7] = [
-        ("initial.position_m", &initial.position_m),
-        ("initial.turn_axis", &initial.turn_axis),
-        ("initial.turn_deg", &[initial.turn_deg]),
-        ("initial.left_leg_deg", &initial.left_leg_deg),
-        ("initial.right_leg_deg", &initial.right_leg_deg),
+    let (set, controller) = (&scene.set_point, &scene.controller);
+    let mut finite: Vec<(&str, &[f64])> = vec![
         ("set_point.position_m", &set.position_m),
         ("set_point.orientation", &set.orientation),
     ];
+    if let Some(initial) = scene.initial.legs() {
+        finite.extend::<[(&str, &[f64]); 5]>([
+            ("initial.position_m", &initial.position_m),
+            ("initial.turn_axis", &initial.turn_axis),
+            ("initial.turn_deg", std::slice::from_ref(&initial.turn_deg)),
+            ("initial.left_leg_deg", &initial.left_leg_deg),
+            ("initial.right_leg_deg", &initial.right_leg_deg),
+        ]);
+    }
     for (field, values) in finite {
         if !values.iter().all(|x| x.is_finite()) {
             return Err(wrong(scene, field, values, "finite numbers"));
@@ -67,7 +94,9 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
             return Err(wrong(scene, field, values, "finite gains above zero"));
         }
     }
-    if Vector3::from(initial.turn_axis).norm() < 1e-9 {
+    if let Some(initial) = scene.initial.legs()
+        && Vector3::from(initial.turn_axis).norm() < 1e-9
+    {
         return Err(wrong(scene, "initial.turn_axis", initial.turn_axis, "an axis with a length"));
     }
     let norm = Quaternion::from_array(set.orientation).norm_squared().sqrt();
@@ -132,7 +161,8 @@ fn thrown_block(scene: &Scene) -> Result<(), SceneError> {
     let [s, x, y, z] = std::array::from_fn(|i| start.positions[3 + i]);
     let to_body = Quaternion::from_array([s, x, y, z]).conjugate();
     let thrown = block.thrown();
-    let from_body = Vector3::from(block.position_m) - Vector3::from(scene.initial.position_m);
+    let from_body =
+        Vector3::from(block.position_m) - Vector3::from_row_slice(&start.positions[..3]);
     let is_inside = thrown
         .points()
         .iter()
@@ -209,31 +239,25 @@ fn timing(scene: &Scene) -> Result<(), SceneError> {
 
 /// A set point that the legs reach with the feet where they start.
 fn reach(scene: &Scene) -> Result<(), SceneError> {
-    let start = scene.initial.state();
-    let [s, x, y, z] = std::array::from_fn(|i| start.positions[3 + i]);
-    let state = RobotState {
-        position: Vector3::from(scene.initial.position_m),
-        orientation: Quaternion::from_array([s, x, y, z]),
-        velocity: Twist::zero(),
-        joint_angles: [
-            scene.initial.left_leg_deg.map(f64::to_radians),
-            scene.initial.right_leg_deg.map(f64::to_radians),
-        ],
-        joint_rates: [[0.0; 6]; 2],
-    };
-    let central = central_body(&ROBOT, &state).map_err(|fault| {
-        wrong(scene, "initial", scene.initial, format!("a state to start from: {fault}"))
+    let (robot, start) = (scene.robot(), scene.initial.state());
+    let poses = robot.tree.body_poses(&start.positions).map_err(|fault| {
+        wrong(scene, "initial", &scene.initial, format!("a state to start from: {fault}"))
     })?;
+    // World frame; a body's frame moves with what it is fixed to.
+    let joint = |body: usize| {
+        let point = robot.tree.body_shape(body).map_or(Vector3::zeros(), |shape| shape.joint);
+        poses[body].transform_point(point)
+    };
     let orientation = Quaternion::from_array(scene.set_point.orientation);
     let desired = Vector3::from(scene.set_point.position_m);
-    for (leg, side) in leg_kinematics(&ROBOT, &central, &state).iter().zip(["left", "right"]) {
-        let [hip, knee, ankle] = [leg.origins[0], leg.origins[3], leg.origins[5]];
-        let length = (knee - hip).norm() + (ankle - knee).norm();
-        let foot = state.position + central.rotation * ankle;
-        let distance = (desired + orientation.rotate(hip) - foot).norm();
+    for (leg, name) in robot.legs.iter().enumerate() {
+        let joints: Vec<Vector3<f64>> = (1..=LEG).map(|k| joint(LEG * leg + k)).collect();
+        let length: f64 = joints.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+        let hip = poses[0].rotation.tr_mul(&(joints[0] - poses[0].position));
+        let distance = (desired + orientation.rotate(hip) - joints[LEG - 1]).norm();
         if distance >= length {
             let expected = format!(
-                "a pose that the {side} leg reaches: its hip would be {distance:.3} m from its \
+                "a pose that the {name} reaches: its hip would be {distance:.3} m from its \
                  ankle, and the leg is {length:.3} m long"
             );
             return Err(wrong(scene, "set_point", scene.set_point, expected));

@@ -97,7 +97,11 @@ impl Scene {
 
     /// What only the model with all hinges can do, if the scene asks for it.
     fn needs_hinges(&self) -> Option<&'static str> {
-        let hips = [self.initial.left_leg_deg[1], self.initial.right_leg_deg[1]];
+        // What lumping does was measured of the biped.
+        let Some(initial) = self.initial.legs() else {
+            return Some("the robot of a file has no other");
+        };
+        let hips = [initial.left_leg_deg[1], initial.right_leg_deg[1]];
         if self.integrator.name != Method::Variational {
             Some("the baseline method has no other")
         } else if self.acting.joint_stops.is_some() {

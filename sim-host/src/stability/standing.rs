@@ -8,6 +8,7 @@ use super::verdict::{FailureKind, Verdict};
 use crate::integrators::Method;
 use crate::multibody::{Simulation, StepForecast};
 use crate::plant::{OnFloor, Plant};
+use crate::robot::Start;
 use crate::scene::{Feet, Scene};
 
 /// Steps in question, s.
@@ -72,7 +73,7 @@ fn kind(method: Method, manner: Manner) -> FailureKind {
 /// are limited by what the sampled loop asks of the ground, and by how it comes down there in such steps.
 fn forecast(scene: &Scene, least_duration_s: f64, method: Method) -> Forecast {
     let plant = match (method, &scene.feet) {
-        (Method::SemiImplicitEuler, Feet::Floor { outline, floor }) => {
+        (Method::SemiImplicitEuler, Feet::Floor { outline: Some(outline), floor }) => {
             let stops = scene.acting.joint_stops.map(|stops| stops.in_radians().to_vec());
             let plant = OnFloor::new(&scene.initial.state(), *floor, &outline.sole());
             (plant.with_stops(stops).step_limit(), FailureKind::Runaway)
@@ -113,10 +114,10 @@ fn turning(scene: &Scene) -> StepForecast {
     let (run, _) = play(scene, Loop::Bare);
     let tree = &scene.robot().tree;
     for sample in run.samples.iter().step_by(EVERY) {
-        let here = tree.states(&sample.positions, &sample.velocities).ok();
-        let forecast = here.and_then(|(states, rates)| {
+        let here = tree.start(&sample.positions, &sample.velocities).ok();
+        let forecast = here.and_then(|Start { system, states, rates, .. }| {
             let h = scene.integrator.step_s;
-            let mut simulation = Simulation::new(tree.system().ok()?, h, &states, &rates).ok()?;
+            let mut simulation = Simulation::new(system, h, &states, &rates).ok()?;
             simulation.forecast().ok()
         });
         all = forecast.map_or(all, |forecast| all.and(forecast));

@@ -166,7 +166,7 @@ fn scene(rng: &mut Pcg64Mcg) -> Scene {
     let names = ["experiment-1", "experiment-2", "experiment-1-welded"];
     let mut scene = load(names[rng.random_range(0..3)]).expect("built in");
     if let Feet::Floor { outline, .. } = &mut scene.feet {
-        *outline = [Outline::A, Outline::R, Outline::M][rng.random_range(0..3)];
+        *outline = Some([Outline::A, Outline::R, Outline::M][rng.random_range(0..3)]);
     }
     scene
 }

@@ -106,7 +106,7 @@ fn auto_takes_the_smallest_model_that_the_scene_bears() {
             },
             "baseline",
         ),
-        (&|s| s.initial.left_leg_deg[1] = 80.0, "gimbal lock"),
+        (&|s| s.initial.legs_mut().expect("legs").left_leg_deg[1] = 80.0, "gimbal lock"),
     ] {
         let (model, reason) = chosen(change);
         assert_eq!(model, RobotModel::Full, "{word}");

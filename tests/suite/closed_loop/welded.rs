@@ -14,7 +14,7 @@ use surefoot_sim::plant::{
     Additions, BlockSample, Observation, PerPoint, Plant, PlantState, RobotModel, StepFailure,
     ThrownBlock, Variational,
 };
-use surefoot_sim::robot::{SMALL_BODIES, biped};
+use surefoot_sim::robot::{SMALL_BODIES, Start, biped};
 use surefoot_sim::scene::{Block, ModelChoice, Outline, Scene, load};
 
 /// The tree afloat, with both feet welded by constraints beside it: what the plant was before it hung from its
@@ -30,10 +30,8 @@ struct Afloat {
 impl Afloat {
     fn new(state: &PlantState, h: f64, model: RobotModel, block: Option<ThrownBlock>) -> Self {
         let full = system_of_tree(&TREE).expect("a system");
-        let (mut states, mut rates) = biped(Outline::A)
-            .tree
-            .states(&state.positions, &state.velocities)
-            .expect("a configuration");
+        let start = biped(Outline::A).tree.start(&state.positions, &state.velocities);
+        let Start { mut states, mut rates, .. } = start.expect("a configuration");
         let (mut system, mut feet, mut central) = (full.clone(), FEET, Frame::IDENTITY);
         if model == RobotModel::Lumped {
             let reduced = lumped(&full, &SMALL_BODIES).expect("hinges that meet");
