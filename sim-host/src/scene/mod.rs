@@ -6,6 +6,7 @@ mod builtin;
 mod check;
 mod check_hardware;
 mod check_mechanism;
+mod check_robot;
 mod disturbance;
 mod hardware;
 mod inertia;
