@@ -31,7 +31,7 @@ pub(crate) fn feet(description: &Description, root: usize) -> Vec<String> {
     let is_moving = |joint: &&DescribedJoint| joint.kind != DescribedKind::Fixed;
     let turns = |kind| matches!(kind, DescribedKind::Revolute | DescribedKind::Continuous);
     let carries_more = |last: &DescribedJoint| {
-        let mut moving = description.joints.iter().filter(|joint| is_moving(&joint));
+        let mut moving = description.joints.iter().filter(|joint| is_moving(joint));
         moving.any(|joint| path(joint.parent).iter().any(|inboard| inboard.name == last.name))
     };
     let mut heights = Vec::new();

@@ -27,14 +27,16 @@ pub fn system_of_tree<const N: usize, const NQ: usize, const NV: usize>(
     }
 }
 
-/// The same with links' frames along their principal axes: these seen from the bodies' frames of the tree, or `None`
-/// where they are the same.
+/// Principal axes of each body, seen from its frame; `None` where they are the frame's.
+pub type PrincipalAxes = Vec<Option<Rotation3<f64>>>;
+
+/// The same with links' frames along their principal axes: these seen from the bodies' frames of the tree.
 ///
 /// # Errors
 /// As for [`system_of_tree`], but of principal axes.
 pub fn principal_system_of_tree<const N: usize, const NQ: usize, const NV: usize>(
     tree: &Tree<f64, N, NQ, NV>,
-) -> Result<(System, Vec<Option<Rotation3<f64>>>), SystemError> {
+) -> Result<(System, PrincipalAxes), SystemError> {
     let gravity = tree.gravity();
     if gravity.x != 0.0 || gravity.y != 0.0 {
         return Err(SystemError::Unsupported { link: 0, what: "gravity along z" });

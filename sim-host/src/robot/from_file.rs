@@ -1,6 +1,6 @@
 //! A robot of a file as scenes take it: its tree, names, feet, limits, and what it looks like.
 
-use super::{Foot, FootPoint, LEG, Limits, MOST_LEGS, Robot, SizedTree, stance};
+use super::{Foot, FootPoint, LEG, Limits, MOST_LEGS, Robot, SizedTree, stance, with_tree};
 use crate::picture::Solid;
 use nalgebra::{Matrix3, Vector3};
 use surefoot::model::TreeFault;
@@ -11,6 +11,9 @@ use surefoot_robots::{Robot as FileRobot, RobotLink, core_links, legs};
 const FALLEN: f64 = 0.5;
 /// Thickness of a link that is drawn, in parts of its length.
 const THICKNESS: f64 = 0.22;
+/// The same at least, in edges of a cube of water of its mass; kg/m³.
+const LEAST_THICKNESS: f64 = 0.4;
+const WATER: f64 = 1e3;
 
 /// Why a robot of a file cannot be in a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -41,6 +44,9 @@ pub enum NoLeggedRobot {
     /// Gravity has another direction.
     #[error("gravity along −z, of more than 0; this one's is {0:?} m/s²")]
     Gravity([f64; 3]),
+    /// A limit is none, or the supervisor's arithmetic cannot hold it.
+    #[error("limits that a supervisor can hold; here {0}")]
+    Limits(String),
     /// Core refuses it.
     #[error("links that core takes: {0:?}")]
     Tree(TreeFault),
@@ -88,8 +94,19 @@ impl Robot {
         let height = stance::height(&robot, &vec![0.0; robot.joint_count()]);
         robot.limits = Limits::of_file(file, &robot, height);
         robot.fallen_height = FALLEN * height;
+        check_limits(&robot)?;
         Ok(robot)
     }
+}
+
+/// Both precisions hold the limits.
+fn check_limits(robot: &Robot) -> Result<(), NoLeggedRobot> {
+    with_tree!(&robot.tree, _tree, LEGS => {
+        let limits = robot.limits.sized::<LEGS>();
+        let limits = limits.ok_or_else(|| NoLeggedRobot::Limits("some are missing".into()))?;
+        limits.check().map_err(|error| NoLeggedRobot::Limits(error.to_string()))?;
+        limits.to_f32().check().map_err(|error| NoLeggedRobot::Limits(error.to_string()))
+    })
 }
 
 /// The foot of a leg, in the frame of its last body.
@@ -123,7 +140,8 @@ fn foot(file: &FileRobot, leg: usize) -> Result<Foot, NoLeggedRobot> {
     })
 }
 
-/// Links as boxes from joint to joint, feet as boxes around their points and their joint, in the bodies' frames.
+/// Links as bars from joint to joint, feet as boxes around their points and their joint, the central body as the
+/// uniform box of its mass and moments of inertia; in the bodies' frames.
 fn shapes(links: &[RobotLink], feet: &[Foot]) -> Vec<Solid> {
     let shape = |(k, link): (usize, &RobotLink)| {
         let center = link.inertial.center;
@@ -136,11 +154,13 @@ fn shapes(links: &[RobotLink], feet: &[Foot]) -> Vec<Solid> {
         let ends = children
             .map(|child| child.joint.pose_at(0.0) * nalgebra::Point3::from(child.joint.point));
         let mut ends = ends.map(|end| end.coords - center);
+        let (mass, inertia) = (link.inertial.mass, &link.inertial.inertia);
         if k == 0 {
-            return around(ends.chain([Vector3::zeros()])).or_box_of(link);
+            return Solid::uniform_box(mass, inertia)
+                .unwrap_or_else(|| around(ends.chain([Vector3::zeros()])));
         }
-        let end = ends.next().unwrap_or_default();
-        bar(own, end).or_box_of(link)
+        let thick = LEAST_THICKNESS * (mass / WATER).cbrt();
+        bar(own, ends.next().unwrap_or_default(), thick)
     };
     links.iter().enumerate().map(shape).collect()
 }
@@ -158,25 +178,13 @@ fn around(points: impl Iterator<Item = Vector3<f64>>) -> Solid {
     Solid::cuboid(edges.into()).moved(&Matrix3::identity(), (low + high) / 2.0)
 }
 
-/// A square bar between two points.
-fn bar(from: Vector3<f64>, to: Vector3<f64>) -> Solid {
+/// A square bar between two points, at least so thick (m).
+fn bar(from: Vector3<f64>, to: Vector3<f64>, least: f64) -> Solid {
     let along = to - from;
     let length = along.norm();
     let turn = nalgebra::Rotation3::rotation_between(&Vector3::z(), &along).unwrap_or_else(|| {
         nalgebra::Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
     });
-    let thick = THICKNESS * length;
-    Solid::cuboid([thick, thick, length]).moved(turn.matrix(), (from + to) / 2.0)
-}
-
-impl Solid {
-    /// The box of a link's mass and inertia, where the solid has no size; a cube of its mass where that is none.
-    fn or_box_of(self, link: &RobotLink) -> Self {
-        const NO_SIZE: f64 = 1e-3;
-        if self.extent().iter().copied().fold(0.0, f64::max) > NO_SIZE {
-            return self;
-        }
-        Self::uniform_box(link.inertial.mass, &link.inertial.inertia)
-            .unwrap_or_else(|| Self::cuboid([(link.inertial.mass / 1e3).cbrt(); 3]))
-    }
+    let thick = least.max(THICKNESS * length);
+    Solid::cuboid([thick, thick, length.max(least)]).moved(turn.matrix(), (from + to) / 2.0)
 }

@@ -95,7 +95,7 @@ fn least_inertias(file: &FileRobot, tree: &SizedTree) -> Vec<f64> {
     // A joint that turns nothing is limp in a stop.
     least
         .into_iter()
-        .map(|x| if x.is_finite() { SURELY_LESS * x } else { f64::MIN_POSITIVE })
+        .map(|x| if x.is_finite() { SURELY_LESS * x } else { f64::from(f32::MIN_POSITIVE) })
         .collect()
 }
 

@@ -1,7 +1,7 @@
 //! How a robot stands: where its feet are, and with which joint angles its legs are bent and its centre of mass is
 //! over its feet.
 
-use super::{LEG, Robot};
+use super::{Foot, LEG, Robot};
 use crate::plant::PlantState;
 use nalgebra::{Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
 use surefoot::spatial::{Pose, Quaternion};
@@ -26,7 +26,8 @@ pub fn on_floor(robot: &Robot, angles: &[f64], turned: Quaternion<f64>) -> Plant
     let mut state = PlantState::home(angles.len());
     state.positions[3..7].copy_from_slice(&turned.to_array());
     state.positions[7..].copy_from_slice(angles);
-    let lowest = points(robot, &state).map(|point| point.z).fold(f64::INFINITY, f64::min);
+    let all = points(robot, &state);
+    let lowest = all.iter().flatten().map(|point| point.z).fold(f64::INFINITY, f64::min);
     if lowest.is_finite() {
         state.positions[2] = -lowest;
     }
@@ -38,13 +39,14 @@ pub(super) fn height(robot: &Robot, angles: &[f64]) -> f64 {
     on_floor(robot, angles, Quaternion::identity()).positions[2]
 }
 
-/// All points of feet in the world; none for what is no configuration.
-fn points(robot: &Robot, state: &PlantState) -> impl Iterator<Item = Vector3<f64>> {
+/// The points of each foot in the world; none for what is no configuration.
+fn points(robot: &Robot, state: &PlantState) -> Vec<Vec<Vector3<f64>>> {
     let poses = robot.tree.body_poses(&state.positions).unwrap_or_default();
-    robot.feet.iter().flat_map(move |foot| {
-        let pose = poses.get(foot.body).copied();
-        foot.points.iter().filter_map(move |point| Some(pose?.transform_point(point.at)))
-    })
+    let of_foot = |foot: &Foot| {
+        let pose = poses.get(foot.body);
+        foot.points.iter().filter_map(|point| Some(pose?.transform_point(point.at))).collect()
+    };
+    robot.feet.iter().map(of_foot).collect()
 }
 
 /// Joint angles (rad) with which the robot stands upright on bent legs, its soles as they are with all joints at 0,
@@ -74,18 +76,23 @@ pub fn bent(robot: &Robot) -> Option<Vec<f64>> {
     Some(angles)
 }
 
-/// From the middle of the feet to the centre of mass, along the floor, m.
+/// From the feet's middle to the centre of mass, along the floor, m.
 fn off_middle(robot: &Robot, state: &PlantState) -> Option<Vector3<f64>> {
     let poses = robot.tree.body_poses(&state.positions).ok()?;
     let weighted = poses.iter().enumerate().map(|(k, p)| p.position * robot.tree.body_mass(k));
     let center = weighted.sum::<Vector3<f64>>() / robot.tree.mass();
-    let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
-    for point in points(robot, state) {
-        low = low.inf(&point);
-        high = high.sup(&point);
-    }
-    let off = center - (low + high) / 2.0;
+    // The controller loads all feet alike: what counts is the mean of their middles.
+    let feet = points(robot, state);
+    let middle = feet.iter().map(|foot| middle(foot)).sum::<Vector3<f64>>() / feet.len() as f64;
+    let off = center - middle;
     Some(Vector3::new(off.x, off.y, 0.0))
+}
+
+/// The middle of the box around points.
+fn middle(points: &[Vector3<f64>]) -> Vector3<f64> {
+    let low = points.iter().fold(Vector3::repeat(f64::INFINITY), |low, point| low.inf(point));
+    let high = points.iter().fold(Vector3::repeat(f64::NEG_INFINITY), |high, p| high.sup(p));
+    (low + high) / 2.0
 }
 
 /// A joint's point and axis in the world.
@@ -105,7 +112,7 @@ fn leg_angles(
 ) -> Option<[f64; LEG]> {
     let bent = |k: usize| {
         let mut seed = [0.0; LEG];
-        seed[k / 2] = if k % 2 == 0 { BENT } else { -BENT };
+        seed[k / 2] = if k.is_multiple_of(2) { BENT } else { -BENT };
         seed
     };
     let seeds: Vec<[f64; LEG]> = match start {

@@ -95,11 +95,11 @@ fn errors_have_the_deviations_and_the_memory_of_their_equations() {
     let (mut products, mut sums) = ([0.0; 4], [0.0; 4]);
     for seed in 0..SEEDS {
         let mut sensors = Sensors::new(&Sensing { seed, ..NOISY }, PERIOD, 12);
-        let first = errors(&sensors.read(&truth), &truth);
+        let first = errors(sensors.read(&truth), &truth);
         for _ in 1..ticks {
             sensors.read(&truth);
         }
-        let last = errors(&sensors.read(&truth), &truth);
+        let last = errors(sensors.read(&truth), &truth);
         for i in 0..4 {
             squares[0][i] += first[i].norm_squared();
             squares[1][i] += last[i].norm_squared();
@@ -131,10 +131,10 @@ fn the_same_noise_is_told_and_integrated() {
     let t = 5.0 * PERIOD;
     let sensing = Sensing { correction_s: t, accelerometer_noise: 1e-3, ..NOISY };
     let mut sensors = Sensors::new(&sensing, PERIOD, 12);
-    let mut before = errors(&sensors.read(&truth), &truth);
+    let mut before = errors(sensors.read(&truth), &truth);
     let decay = (-PERIOD / t).exp();
     for _ in 0..100 {
-        let now = errors(&sensors.read(&truth), &truth);
+        let now = errors(sensors.read(&truth), &truth);
         let pushing = (now[1] - before[1] * decay) / (t * (1.0 - decay));
         let rates =
             |[angle, v, p]: [Vector3<f64>; 3]| [now[3] - angle / t, pushing - v / t, v - p / t];
