@@ -321,16 +321,16 @@ pub(super) fn taken(folder: &Path) -> Option<File> {
 /// The report, the record in both forms, and the figures.
 fn write_files(folder: &Path, report: &Report<'_>) -> Result<Vec<PathBuf>, String> {
     let Report { scene, run, .. } = report;
-    let _taken = taken(folder);
+    let (_taken, robot) = (taken(folder), scene.robot());
     let named = |name: &str| folder.join(name);
     let (record, mcap, page_file) =
         (named("record.csv"), named("record.mcap"), named("report.html"));
-    write_whole(&record, |to| write_csv(&run.samples, to))?;
+    write_whole(&record, |to| write_csv(&robot, &run.samples, to))?;
     write_whole(&mcap, |to| write_mcap(&Shown::of(scene), &run.samples, &run.events, to))?;
     write_text(&page_file, &page(&report.page()).map_err(|error| error.to_string())?)?;
     let mut files = vec![page_file, record, mcap];
     for figure in RUN_FIGURES {
-        let svg = figure.svg(&scene.name, &run.samples, &run.events);
+        let svg = figure.svg(&scene.name, &robot, &run.samples, &run.events);
         let file = named(&format!("{}.svg", figure.name));
         write_text(&file, &svg.map_err(|error| error.to_string())?)?;
         files.push(file);
