@@ -237,14 +237,14 @@ fn on_plants() -> impl Iterator<Item = Workload> {
 const STANDING_STEP: f64 = 2e-3;
 
 /// After a second of Experiment 1, with the torques then.
-fn stand(scene: &str, model: ModelChoice) -> (Box<dyn Plant>, [f64; 12]) {
+fn stand(scene: &str, model: ModelChoice) -> (Box<dyn Plant>, Vec<f64>) {
     let mut scene = load(scene).expect("a built-in scene");
     (scene.duration_s, scene.model) = (1.0, model);
     scene.integrator.step_s = STANDING_STEP;
     let mut plant = plant(&scene).expect("a plant");
     let mut controller = controller(&scene, Scalar::F64);
     let run = run_plant(&scene, plant.as_mut(), controller.as_mut(), None, &mut |_| {});
-    (plant, run.samples.last().expect("samples").torques)
+    (plant, run.samples.last().expect("samples").torques.clone())
 }
 
 /// Steps of both methods of table 2.2 at its middle step.

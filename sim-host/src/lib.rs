@@ -31,6 +31,7 @@ pub mod plant;
 pub mod precision;
 pub mod record;
 pub mod report;
+pub mod robot;
 pub mod scene;
 pub mod stability;
 pub mod written;

@@ -61,35 +61,39 @@ fn no_step_allocates() {
     });
     for name in ["experiment-1", "experiment-1-welded", "experiment-2", "experiment-2-welded"] {
         let AnyScene::Robot(scene) = open(name).expect("built in") else { unreachable!() };
-        let start = scene.initial.state();
+        let (robot, start) = (scene.robot(), scene.initial.state());
         let additions = Additions {
             model: scene.rung().model,
             block: scene.block.as_ref().map(Block::thrown),
             ..Additions::default()
         };
         let noisy = Sensing { encoder_counts: 4096, gyroscope_noise: 1e-4, ..Sensing::default() };
-        let mut sensors = Sensors::new(&noisy, 1e-3);
+        let mut sensors = Sensors::new(&noisy, 1e-3, start.joints());
         let weak =
             Acting { delay_s: 3.5e-3, torque_limits_nm: Some([50.0; 6]), ..Acting::default() };
-        let mut motors = Motors::new(&weak, 1e-3, 1);
+        let mut motors = Motors::new(&weak, 1e-3, 1, start.joints());
         count("sensors and motors", || {
             let seen = sensors.read(&start);
-            motors.command(&std::array::from_fn(|i| 100.0 * seen.positions[7 + i]), 0.0);
+            let torques: [f64; 12] = std::array::from_fn(|i| 100.0 * seen.positions[7 + i]);
+            motors.command(&torques, 0.0);
             std::hint::black_box(motors.over_step(0));
         });
         let mut plant = match &scene.feet {
-            Feet::Floor { outline, floor } => {
-                Variational::on_floor(&start, 1e-3, *floor, &outline.sole(), &additions)
+            Feet::Floor { floor, .. } => {
+                Variational::on_floor(&robot, &start, 1e-3, *floor, &additions)
             }
-            Feet::Welded {} => Variational::welded(&start, 1e-3, &additions),
+            Feet::Welded {} => Variational::welded(&robot, &start, 1e-3, &additions),
         }
         .expect("a plant");
         // Enough to hold the knees for a while.
         let mut torques = [0.0; 12];
         (torques[3], torques[9]) = (100.0, 100.0);
+        let (mut state, mut contacts) = (start.clone(), plant.contacts().unwrap_or_default());
+        plant.read_state(&mut state).expect("a state");
         count(name, || {
             plant.step(1e-3, &torques, None).expect("a step");
-            plant.state().expect("a state");
+            plant.read_state(&mut state).expect("a state");
+            plant.read_contacts(&mut contacts);
         });
     }
 }

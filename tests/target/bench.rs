@@ -38,11 +38,11 @@ impl Bench {
     pub fn new(mut target: Target) -> Self {
         let scene = load("experiment-1").expect("built in");
         arm(&mut target, &scene);
-        let Feet::Floor { outline, floor } = &scene.feet else { panic!("it has a floor") };
+        let Feet::Floor { floor, .. } = &scene.feet else { panic!("it has a floor") };
         let (start, step) = (scene.initial.state(), scene.integrator.step_s);
-        let plant =
-            Variational::on_floor(&start, step, *floor, &outline.sole(), &Additions::default())
-                .expect("a plant");
+        let additions = Additions::default();
+        let plant = Variational::on_floor(&scene.robot(), &start, step, *floor, &additions)
+            .expect("a plant");
         Self { scene, plant, target, limits: biped::LIMITS.to_f32(), time: 0.0, torques: [0.0; 12] }
     }
 

@@ -19,7 +19,7 @@ impl Controller for Twins {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let answer = self.target.tick(state)?;
         let host = self.host.tick(state)?;
-        for (host, target) in host.torques.iter().zip(answer.torques) {
+        for (host, target) in host.torques.iter().zip(&answer.torques) {
             assert_eq!(host.to_bits(), target.to_bits(), "tick {}", self.compared / 12);
             self.compared += 1;
         }
@@ -89,7 +89,7 @@ fn supervisors_are_the_same_to_the_last_bit() {
     ] {
         let mut scene = load(name).expect("built in");
         if let Feet::Floor { outline, floor } = &mut scene.feet {
-            *outline = sole;
+            *outline = Some(sole);
             (floor.static_friction, floor.dynamic_friction) = (friction, friction);
         }
         let target = FirmwareController::new(target(), &scene).expect("obeyed");

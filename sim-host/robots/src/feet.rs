@@ -93,7 +93,7 @@ fn foot(
 }
 
 /// The lowest points of a link's shapes, in its frame, which is at `world`.
-fn sole(shapes: &[Shape], world: &Isometry3<f64>) -> Result<Vec<Vector3<f64>>, String> {
+pub(crate) fn sole(shapes: &[Shape], world: &Isometry3<f64>) -> Result<Vec<Vector3<f64>>, String> {
     if shapes.is_empty() {
         return Err("it has no collision shape".into());
     }

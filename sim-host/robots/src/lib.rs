@@ -20,6 +20,7 @@ mod reduce;
 mod robot;
 mod robot_file;
 mod rust_source;
+mod standing;
 mod tree;
 mod urdf;
 mod xml;
@@ -30,6 +31,7 @@ pub use inertial::Inertial;
 pub use robot::{Coupling, Foot, NamedFrame, Robot, RobotJoint, RobotLink, RobotMotion};
 pub use robot_file::robot_toml;
 pub use rust_source::{legs, robot_rs};
+pub use tree::core_links;
 
 use description::Description;
 use std::collections::BTreeMap;
@@ -46,6 +48,9 @@ pub struct Options {
     pub feet: Vec<String>,
     /// Soles that are stated, not taken from collision shapes.
     pub soles: Vec<Sole>,
+    /// Where neither options nor the file name feet, take the lowest links that hang from the root by six revolute
+    /// joints.
+    pub find_feet: bool,
     /// Fix every joint that no foot hangs from.
     pub legs_only: bool,
     /// Take joints that follow others as free ones, and leave out constraints.

@@ -9,7 +9,7 @@ use crate::error::{ImportError, Refusal};
 use crate::feet;
 use crate::inertial::Inertial;
 use crate::robot::{Coupling, NamedFrame, Robot, RobotJoint, RobotLink, RobotMotion};
-use crate::{BaseChoice, Imported, Options};
+use crate::{BaseChoice, Imported, Options, standing};
 use nalgebra::{Isometry3, Vector3};
 use std::collections::HashMap;
 
@@ -38,8 +38,13 @@ pub(crate) fn reduce(
     } else if let Some((place, what)) = description.constraints.first() {
         return Err(ImportError::refused(Some(place), what.clone(), Refusal::Constraint));
     }
-    let locked = locks::lock(&mut description, root, options)?;
     let mut notes = Vec::new();
+    let found = found_feet(&description, root, options);
+    if let Some(Options { feet, .. }) = &found {
+        notes.push(format!("feet found: {} (--feet for others)", feet.join(", ")));
+    }
+    let options = found.as_ref().unwrap_or(options);
+    let locked = locks::lock(&mut description, root, options)?;
     let floating = is_floating(&description, root, options.base, &mut notes)?;
     let mut lumped = Lumped::of(&description, root, floating);
     lumped.couple(&description)?;
@@ -58,6 +63,16 @@ pub(crate) fn reduce(
     let Lumped { mut robot, placements, .. } = lumped;
     robot.feet = feet::feet(&description, &placements, &robot, options)?;
     Ok(Imported { robot, notes, locked, unread: description.unread })
+}
+
+/// The options with feet that are found; `None` where some are named, or none are.
+fn found_feet(description: &Description, root: usize, options: &Options) -> Option<Options> {
+    let is_open = options.find_feet
+        && options.feet.is_empty()
+        && options.soles.is_empty()
+        && description.feet.is_empty();
+    let feet = if is_open { standing::feet(description, root) } else { Vec::new() };
+    (!feet.is_empty()).then(|| Options { feet, ..options.clone() })
 }
 
 /// Whether the root link floats.

@@ -50,6 +50,12 @@ pub(crate) fn home_links(robot: &Robot) -> Vec<HomeLink> {
     .collect()
 }
 
+/// The robot's links as a [`surefoot::model::Tree`] takes them, in its order: each body's frame has its link's axes.
+/// What follows another joint is free.
+pub fn core_links(robot: &Robot) -> Vec<Link> {
+    home_links(robot).into_iter().map(HomeLink::to_core).collect()
+}
+
 impl HomeLink {
     /// As a [`surefoot::model::Tree`] takes it.
     pub fn to_core(self) -> Link {

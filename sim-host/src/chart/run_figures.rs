@@ -2,7 +2,8 @@
 
 use super::marks::marks;
 use super::{ChartError, Panel, Series, TimeSeries};
-use crate::record::{Event, JOINTS, Sample};
+use crate::record::{Event, Sample};
+use crate::robot::{LEG, Robot};
 
 /// A figure that can be drawn of any run.
 #[derive(Clone, Copy, Debug)]
@@ -11,7 +12,7 @@ pub struct RunFigure {
     pub name: &'static str,
     /// What it shows.
     pub title: &'static str,
-    panels: fn(&[Sample]) -> Vec<Panel>,
+    panels: fn(&Robot, &[Sample]) -> Vec<Panel>,
 }
 
 /// All figures of a run. The first eight are those of each experiment of §4.3, in the text's order.
@@ -40,6 +41,7 @@ impl RunFigure {
     pub fn svg(
         &self,
         of: &str,
+        robot: &Robot,
         samples: &[Sample],
         events: &[Event],
     ) -> Result<String, ChartError> {
@@ -47,7 +49,7 @@ impl RunFigure {
         TimeSeries {
             title: format!("{of}: {}", self.title),
             times: &times,
-            panels: (self.panels)(samples),
+            panels: (self.panels)(robot, samples),
             marks: &marks(events),
         }
         .svg()
@@ -83,33 +85,41 @@ fn about(
     range.map(|i| series(samples, name(i), move |sample| of(sample, i))).collect()
 }
 
-/// One curve a joint of one leg.
-fn leg(samples: &[Sample], side: usize, of: fn(&Sample, usize) -> f64) -> Vec<Series> {
-    (6 * side..6 * side + 6)
-        .map(|i| {
-            let name = JOINTS[i].trim_start_matches("left ").trim_start_matches("right ");
-            series(samples, name, move |sample| of(sample, i))
-        })
-        .collect()
+/// One panel a leg, with a curve for each of its joints.
+fn legs(
+    robot: &Robot,
+    samples: &[Sample],
+    (what, unit): (&str, &str),
+    of: fn(&Sample, usize) -> f64,
+) -> Vec<Panel> {
+    let of_leg = |(leg, name): (usize, &String)| {
+        let joints = robot.joints.iter().enumerate().skip(LEG * leg).take(LEG);
+        let curves = joints.map(|(i, joint)| {
+            let joint = joint.trim_start_matches("left ").trim_start_matches("right ");
+            series(samples, joint, move |sample| of(sample, i))
+        });
+        panel(&format!("{}, {what}", capitalised(name)), unit, curves.collect())
+    };
+    robot.legs.iter().enumerate().map(of_leg).collect()
 }
 
-fn joint_angles(samples: &[Sample]) -> Vec<Panel> {
+/// With a capital at its beginning.
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+fn joint_angles(robot: &Robot, samples: &[Sample]) -> Vec<Panel> {
     let angle = |sample: &Sample, i: usize| sample.positions[7 + i].to_degrees();
-    vec![
-        panel("Left leg, joint angles", "degrees", leg(samples, 0, angle)),
-        panel("Right leg, joint angles", "degrees", leg(samples, 1, angle)),
-    ]
+    legs(robot, samples, ("joint angles", "degrees"), angle)
 }
 
-fn joint_torques(samples: &[Sample]) -> Vec<Panel> {
+fn joint_torques(robot: &Robot, samples: &[Sample]) -> Vec<Panel> {
     let torque = |sample: &Sample, i: usize| sample.torques[i];
-    vec![
-        panel("Left leg, joint torques", "N·m", leg(samples, 0, torque)),
-        panel("Right leg, joint torques", "N·m", leg(samples, 1, torque)),
-    ]
+    legs(robot, samples, ("joint torques", "N·m"), torque)
 }
 
-fn body_position(samples: &[Sample]) -> Vec<Panel> {
+fn body_position(_: &Robot, samples: &[Sample]) -> Vec<Panel> {
     let centimetres = |sample: &Sample, i: usize| 1e2 * sample.positions[i];
     vec![
         panel("Centre of mass, world frame: x, y", "cm", along(samples, 0..=1, centimetres)),
@@ -117,7 +127,7 @@ fn body_position(samples: &[Sample]) -> Vec<Panel> {
     ]
 }
 
-fn body_orientation(samples: &[Sample]) -> Vec<Panel> {
+fn body_orientation(_: &Robot, samples: &[Sample]) -> Vec<Panel> {
     let vector = |sample: &Sample, i: usize| sample.positions[4 + i];
     let scalar = series(samples, "scalar", |sample| sample.positions[3]);
     vec![
@@ -126,7 +136,7 @@ fn body_orientation(samples: &[Sample]) -> Vec<Panel> {
     ]
 }
 
-fn position_error(samples: &[Sample]) -> Vec<Panel> {
+fn position_error(_: &Robot, samples: &[Sample]) -> Vec<Panel> {
     let centimetres = |sample: &Sample, i: usize| 1e2 * sample.position_error[i];
     vec![
         panel("Position error, world frame: x, y", "cm", along(samples, 0..=1, centimetres)),
@@ -134,7 +144,7 @@ fn position_error(samples: &[Sample]) -> Vec<Panel> {
     ]
 }
 
-fn orientation_error(samples: &[Sample]) -> Vec<Panel> {
+fn orientation_error(_: &Robot, samples: &[Sample]) -> Vec<Panel> {
     let vector = |sample: &Sample, i: usize| sample.orientation_error[1 + i];
     // Near the set point the scalar part is 1 less something that only a finer scale shows.
     let scalar =
@@ -145,7 +155,7 @@ fn orientation_error(samples: &[Sample]) -> Vec<Panel> {
     ]
 }
 
-fn desired_force(samples: &[Sample]) -> Vec<Panel> {
+fn desired_force(_: &Robot, samples: &[Sample]) -> Vec<Panel> {
     let force = |sample: &Sample, i: usize| sample.desired_wrench[i];
     vec![
         panel("Desired force on body 1, body frame: x, y", "N", along(samples, 0..=1, force)),
@@ -153,7 +163,7 @@ fn desired_force(samples: &[Sample]) -> Vec<Panel> {
     ]
 }
 
-fn desired_torque(samples: &[Sample]) -> Vec<Panel> {
+fn desired_torque(_: &Robot, samples: &[Sample]) -> Vec<Panel> {
     let torque = |sample: &Sample, i: usize| sample.desired_wrench[3 + i];
     vec![
         panel("Desired torque on body 1, body frame: x, y", "N·m", about(samples, 0..=1, torque)),
@@ -161,7 +171,7 @@ fn desired_torque(samples: &[Sample]) -> Vec<Panel> {
     ]
 }
 
-fn tracking_errors(samples: &[Sample]) -> Vec<Panel> {
+fn tracking_errors(_: &Robot, samples: &[Sample]) -> Vec<Panel> {
     let millimetres = |sample: &Sample, i: usize| 1e3 * sample.position_error[i];
     let degrees = |sample: &Sample, i: usize| {
         // The vector part is sin(θ/2) times the axis.
@@ -179,15 +189,16 @@ fn tracking_errors(samples: &[Sample]) -> Vec<Panel> {
     ]
 }
 
-const FEET: [&str; 2] = ["left foot", "right foot"];
-
-fn ground_forces(samples: &[Sample]) -> Vec<Panel> {
-    let vertical =
-        (0..2).map(|i| series(samples, FEET[i], move |sample| sample.foot_forces[i])).collect();
+fn ground_forces(robot: &Robot, samples: &[Sample]) -> Vec<Panel> {
+    let feet = || robot.feet.iter().enumerate();
+    let vertical = feet()
+        .map(|(i, foot)| series(samples, &foot.name, move |sample| sample.foot_forces[i]))
+        .collect();
     let mut panels = vec![panel("Vertical force of the ground on each foot", "N", vertical)];
     if samples.iter().any(|sample| sample.corner_forces.is_some()) {
-        let horizontal =
-            (0..2).map(|i| series(samples, FEET[i], move |s| friction_force(s, i))).collect();
+        let horizontal = feet()
+            .map(|(i, foot)| series(samples, &foot.name, move |s| friction_force(s, i)))
+            .collect();
         panels.push(panel("Horizontal force of the ground on each foot", "N", horizontal));
     }
     if samples.iter().any(|sample| sample.block.is_some()) {
@@ -200,7 +211,7 @@ fn ground_forces(samples: &[Sample]) -> Vec<Panel> {
 
 /// Size of the horizontal force of the ground on a foot, N.
 fn friction_force(sample: &Sample, foot: usize) -> f64 {
-    let Some(forces) = sample.corner_forces else { return f64::NAN };
+    let Some(forces) = &sample.corner_forces else { return f64::NAN };
     let (x, y) = forces[foot].iter().fold((0.0, 0.0), |(x, y), force| (x + force[0], y + force[1]));
     f64::hypot(x, y)
 }

@@ -1,6 +1,7 @@
 //! `surefoot import`: a URDF or MJCF file to a robot of names, and to const data for firmware.
 
 use super::{BAD_INPUT, RUN_FAILED, complain, say};
+use crate::robot::{Robot as SceneRobot, stand_scene};
 use crate::written::write_text;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -100,6 +101,7 @@ pub(super) fn run(options: &Options) -> ExitCode {
         soles: options.soles.clone(),
         legs_only: options.legs_only,
         free_couplings: options.free_couplings,
+        find_feet: true,
         ..options.how.options()
     };
     let source = import(&options.robot, &how)
@@ -112,18 +114,38 @@ pub(super) fn run(options: &Options) -> ExitCode {
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from(options.robot.file_stem().unwrap_or("robot".as_ref())));
-    let files = [("robot.toml", robot_toml(&imported.robot)), ("robot.rs", source)];
+    let mut files = vec![("robot.toml", robot_toml(&imported.robot)), ("robot.rs", source)];
+    let standing = standing(&options.robot, &how, &imported.locked);
+    if let Ok(scene) = &standing {
+        files.push(("stand.toml", scene.clone()));
+    }
     for (name, text) in &files {
         if let Err(error) = write(&folder, name, text) {
             return failed("file", &error, options.json);
         }
     }
-    let paths = files.map(|(name, _)| folder.join(name).display().to_string());
+    let paths: Vec<String> =
+        files.iter().map(|(name, _)| folder.join(name).display().to_string()).collect();
     let said = match options.json {
         true => format!("{:#}\n", document(&imported, &paths)),
-        false => summary(&imported, &paths),
+        false => summary(&imported, &paths, standing.as_ref().err()),
     };
     say(&said, ExitCode::SUCCESS)
+}
+
+/// A scene in which the robot stands on its legs, everything else locked; or why there is none.
+fn standing(path: &Path, how: &ImportOptions, gone: &[(String, f64)]) -> Result<String, String> {
+    let legs_only = ImportOptions { legs_only: true, ..how.clone() };
+    let imported = import(path, &legs_only).map_err(|error| error.to_string())?;
+    if imported.robot.feet.is_empty() {
+        return Err("it has no feet that are found (--feet names them)".into());
+    }
+    let robot = SceneRobot::of_file(&imported.robot)
+        .map_err(|error| format!("the balance controller takes {error}"))?;
+    let is_there = |(name, _): &&(String, f64)| gone.iter().all(|(other, _)| other != name);
+    let locked: Vec<_> = imported.locked.iter().filter(is_there).cloned().collect();
+    stand_scene(&robot, "robot.toml", &locked)
+        .ok_or_else(|| "its legs find no angles to stand on".into())
 }
 
 fn write(folder: &Path, name: &str, text: &str) -> Result<(), String> {
@@ -188,7 +210,7 @@ fn kind(robot: &Robot, link: &str) -> String {
     found.map(|link| format!("{:?}", link.joint.motion).to_lowercase()).unwrap_or_default()
 }
 
-fn summary(imported: &Imported, paths: &[String]) -> String {
+fn summary(imported: &Imported, paths: &[String], no_scene: Option<&String>) -> String {
     use std::fmt::Write;
     let Imported { robot, notes, locked, unread } = imported;
     let mut out = format!(
@@ -218,6 +240,12 @@ fn summary(imported: &Imported, paths: &[String]) -> String {
     if !unread.is_empty() {
         let all: Vec<String> = unread.iter().map(|(tag, n)| format!("{tag} ×{n}")).collect();
         line(format!("not read: {}", all.join(", ")));
+    }
+    match no_scene {
+        Some(reason) => line(format!("no stand.toml: {reason}")),
+        None => line(
+            "stand.toml stands on its legs; joints that no foot hangs from are locked there, under [robot.lock]".into(),
+        ),
     }
     line(format!("wrote {}", paths.join(" and ")));
     out

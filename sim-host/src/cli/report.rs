@@ -115,7 +115,8 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
     )?;
     writeln!(out, "  method: {}; {}", scene.integrator.name, report.reason)?;
     let rung = scene.rung();
-    let bodies = rung.model.bodies();
+    let robot = scene.robot();
+    let bodies = robot.bodies_of(rung.model);
     writeln!(out, "  model: {}, {bodies} bodies; {}", rung.model, rung.reason)?;
     if let Some(costs) = &run.costs {
         let Costs { unit, per_second, min, mean, max } = *costs;
@@ -136,8 +137,8 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
             last.error_angle().to_degrees(),
         )?;
     }
-    if let Some(peaks) = Peaks::of(&run.samples) {
-        let (joint, peak) = peaks.largest_joint();
+    let peaks = Peaks::of(&run.samples);
+    if let Some((joint, peak)) = peaks.as_ref().and_then(|peaks| peaks.largest_joint(&robot)) {
         writeln!(out, "  largest torque: {joint}, {:.1} N·m at {} s", peak.value, peak.time_s)?;
     }
     if let CutTorques { joint_ticks, first_s: Some(first) } = run.cut_torques {
@@ -149,7 +150,7 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
             "  limits of floor and motors bound in {:.2} % of the ticks",
             100.0 * limits.active_share
         )?;
-        if let Some(WorstLimit { limit, leg, joint, time_s, .. }) = limits.worst {
+        if let Some(WorstLimit { limit, leg, joint, time_s, .. }) = &limits.worst {
             let joint = joint.map_or_else(String::new, |joint| format!(" of joint {joint}"));
             write!(out, ", most of all: {limit}{joint}, {leg} leg, at {time_s} s")?;
         }
@@ -202,12 +203,11 @@ pub fn percent(difference: Option<f64>) -> String {
 /// The document of `--json`. Keys that have no meaning for a plant are null.
 pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
     let Report { scene, scalar, controller, run, other, reason, warnings } = report;
-    let peaks = Peaks::of(&run.samples);
+    let (robot, peaks) = (scene.robot(), Peaks::of(&run.samples));
     let last = run.samples.last();
-    let peak_torque = peaks.map(|peaks| {
-        let (joint, peak) = peaks.largest_joint();
-        json!({ "value": peak.value, "joint": joint, "time_s": peak.time_s })
-    });
+    let largest = peaks.as_ref().and_then(|peaks| peaks.largest_joint(&robot));
+    let peak_torque = largest
+        .map(|(joint, peak)| json!({ "value": peak.value, "joint": joint, "time_s": peak.time_s }));
     let other_reading = other.map(|(from, run)| {
         json!({
             "torques_from": from,

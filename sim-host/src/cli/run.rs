@@ -7,7 +7,7 @@ use super::report::{self, Report};
 use super::run_mechanism::run_mechanism;
 use super::{RUN_FAILED, bad_input, complain, recommended, say};
 use crate::chart::RUN_FIGURES;
-use crate::closed_loop::{self, Run, Scalar};
+use crate::closed_loop::{self, Run};
 use crate::follow::Until;
 use crate::integrators::Method;
 use crate::picture::Shown;
@@ -143,7 +143,7 @@ fn run_robot(scene: Scene, options: &Options) -> Result<ExitCode, String> {
     let scalar = options.controller.scalar();
     let saved = options.saved(scene.duration_s)?;
     if let Some(saved) = &saved {
-        belongs(saved, &scene, scalar)?;
+        belongs(saved, &scene, &options.controller)?;
     }
     let folder = options.folder(&scene.name, saved.as_ref());
     keeps_record(&folder, saved.as_ref())?;
@@ -187,11 +187,22 @@ fn run_robot(scene: Scene, options: &Options) -> Result<ExitCode, String> {
 }
 
 /// Refuses a saved run of another motion.
-fn belongs(saved: &SavedRun, scene: &Scene, scalar: Scalar) -> Result<(), String> {
+fn belongs(saved: &SavedRun, scene: &Scene, options: &ControllerOptions) -> Result<(), String> {
+    let scalar = options.scalar();
     let other = saved.motion.difference(&MotionIdentity::of_robot(scene));
     let other = other.or_else(|| {
         let of_saved = saved.scalar.filter(|of_saved| *of_saved != scalar)?;
         Some(format!("--scalar {of_saved:?}, not {scalar:?}").to_lowercase())
+    });
+    // A supervisor on the target keeps what it remembers to itself.
+    let other = other.or_else(|| match (&saved.supervisor, options.place) {
+        (Some(_), Place::Bare) => {
+            Some("its controller had a supervisor, --controller bare has none".into())
+        }
+        (None, Place::Host) => {
+            Some("its controller had no supervisor here, --controller host has one".into())
+        }
+        _ => None,
     });
     match other {
         None => Ok(()),
@@ -315,16 +326,16 @@ pub(super) fn taken(folder: &Path) -> Option<File> {
 /// The report, the record in both forms, and the figures.
 fn write_files(folder: &Path, report: &Report<'_>) -> Result<Vec<PathBuf>, String> {
     let Report { scene, run, .. } = report;
-    let _taken = taken(folder);
+    let (_taken, robot) = (taken(folder), scene.robot());
     let named = |name: &str| folder.join(name);
     let (record, mcap, page_file) =
         (named("record.csv"), named("record.mcap"), named("report.html"));
-    write_whole(&record, |to| write_csv(&run.samples, to))?;
+    write_whole(&record, |to| write_csv(&robot, &run.samples, to))?;
     write_whole(&mcap, |to| write_mcap(&Shown::of(scene), &run.samples, &run.events, to))?;
     write_text(&page_file, &page(&report.page()).map_err(|error| error.to_string())?)?;
     let mut files = vec![page_file, record, mcap];
     for figure in RUN_FIGURES {
-        let svg = figure.svg(&scene.name, &run.samples, &run.events);
+        let svg = figure.svg(&scene.name, &robot, &run.samples, &run.events);
         let file = named(&format!("{}.svg", figure.name));
         write_text(&file, &svg.map_err(|error| error.to_string())?)?;
         files.push(file);

@@ -19,14 +19,16 @@ pub struct CutTorques {
 /// within a step.
 #[derive(Clone, Debug)]
 pub struct Motors {
-    /// N·m, left leg then right.
-    limits: Option<[f64; 12]>,
+    /// N·m, one a joint.
+    limits: Option<Vec<f64>>,
     steps_per_tick: usize,
     /// The delay in steps: whole ones, and the part of one that is left.
     whole: usize,
     part: f64,
     /// A ring of the latest ticks' torques, as many as the delay spans.
-    torques: Vec<[f64; 12]>,
+    torques: Vec<Vec<f64>>,
+    /// Their mean over the last step.
+    mean: Vec<f64>,
     newest: usize,
     cut: CutTorques,
 }
@@ -35,27 +37,32 @@ pub struct Motors {
 const NO_PART: f64 = 1e-9;
 
 impl Motors {
-    /// As a scene has them, for plant steps of `step_s` and so many of them a tick, at least 1.
-    pub fn new(acting: &Acting, step_s: f64, steps_per_tick: usize) -> Self {
+    /// As a scene has them for so many joints, for plant steps of `step_s` and so many of them a tick, at least 1.
+    pub fn new(acting: &Acting, step_s: f64, steps_per_tick: usize, joints: usize) -> Self {
         let delay = acting.delay_s / step_s;
         let whole = (delay + NO_PART).floor();
         let part = if delay - whole > NO_PART { delay - whole } else { 0.0 };
         let whole = whole as usize;
         let spanned = (whole + steps_per_tick) / steps_per_tick;
         Self {
-            limits: acting.torque_limits_nm.map(|leg| std::array::from_fn(|i| leg[i % 6])),
+            limits: acting
+                .torque_limits_nm
+                .map(|leg| leg.into_iter().cycle().take(joints).collect()),
             steps_per_tick,
             whole,
             part,
-            torques: vec![[0.0; 12]; 1 + spanned],
+            torques: vec![vec![0.0; joints]; 1 + spanned],
+            mean: vec![0.0; joints],
             newest: 0,
             cut: CutTorques::default(),
         }
     }
 
     /// Takes a tick's torques.
-    pub fn command(&mut self, torques: &[f64; 12], time_s: f64) {
-        let mut given = *torques;
+    pub fn command(&mut self, torques: &[f64], time_s: f64) {
+        self.newest = (self.newest + 1) % self.torques.len();
+        let given = &mut self.torques[self.newest];
+        given.iter_mut().zip(torques).for_each(|(given, torque)| *given = *torque);
         if let Some(limits) = &self.limits {
             for (torque, limit) in given.iter_mut().zip(limits) {
                 if torque.abs() > *limit {
@@ -65,26 +72,28 @@ impl Motors {
                 }
             }
         }
-        self.newest = (self.newest + 1) % self.torques.len();
-        self.torques[self.newest] = given;
     }
 
     /// Mean torques over a plant step, the one that begins at the latest tick being 0.
-    pub fn over_step(&self, step: usize) -> [f64; 12] {
+    pub fn over_step(&mut self, step: usize) -> &[f64] {
         let late = self.at(step, self.whole);
         if self.part == 0.0 {
-            return *late;
+            return &self.torques[late];
         }
         let later = self.at(step, self.whole + 1);
-        std::array::from_fn(|i| (1.0 - self.part) * late[i] + self.part * later[i])
+        let both = self.torques[late].iter().zip(&self.torques[later]);
+        for (mean, (late, later)) in self.mean.iter_mut().zip(both) {
+            *mean = (1.0 - self.part) * late + self.part * later;
+        }
+        &self.mean
     }
 
-    /// Torques asked for during the step that is so many steps `back`.
-    fn at(&self, step: usize, back: usize) -> &[f64; 12] {
+    /// Where the torques are that were asked for during the step that is so many steps `back`.
+    fn at(&self, step: usize, back: usize) -> usize {
         debug_assert!(step < self.steps_per_tick);
         let ticks = (back + self.steps_per_tick - 1 - step) / self.steps_per_tick;
         let length = self.torques.len();
-        &self.torques[(self.newest + length - ticks) % length]
+        (self.newest + length - ticks) % length
     }
 
     /// What was cut so far.
@@ -93,16 +102,18 @@ impl Motors {
     }
 
     /// Torques on their way, oldest first: all that a delay needs to go on.
-    pub(super) fn pending(&self) -> Vec<[f64; 12]> {
+    pub(super) fn pending(&self) -> Vec<Vec<f64>> {
         let (newer, older) = self.torques.split_at(self.newest + 1);
         [older, newer].concat()
     }
 
     /// Goes on with torques on their way; `false` if they are of another delay.
-    pub(super) fn resume(&mut self, pending: &[[f64; 12]]) -> bool {
-        let fits = pending.len() == self.torques.len();
+    pub(super) fn resume(&mut self, pending: &[Vec<f64>]) -> bool {
+        let joints = self.mean.len();
+        let fits = pending.len() == self.torques.len()
+            && pending.iter().all(|torques| torques.len() == joints);
         if fits {
-            self.torques.copy_from_slice(pending);
+            self.torques.clone_from_slice(pending);
             self.newest = pending.len() - 1;
         }
         fits

@@ -45,21 +45,21 @@ impl Approximation {
 }
 
 /// The core's controller, stage by stage, with something left out.
-pub struct ApproximateController<T: 'static> {
-    exact: HostController<T>,
+pub struct ApproximateController<T, const LEGS: usize> {
+    exact: HostController<T, LEGS>,
     approximation: Approximation,
     /// Since the last were computed, ticks.
     held: Option<(WorkspaceDynamics<T>, u32)>,
 }
 
-impl<T: Real> ApproximateController<T> {
+impl<T: Real, const LEGS: usize> ApproximateController<T, LEGS> {
     /// Of a controller, less an approximation.
-    pub fn new(exact: HostController<T>, approximation: Approximation) -> Self {
+    pub fn new(exact: HostController<T, LEGS>, approximation: Approximation) -> Self {
         Self { exact, approximation, held: None }
     }
 
-    fn torques(&mut self, state: &PlantState) -> Result<([[T; 6]; 2], Wrench<T>), Fault> {
-        let controller = self.exact.controller;
+    fn torques(&mut self, state: &PlantState) -> Result<([[T; 6]; LEGS], Wrench<T>), Fault> {
+        let controller = self.exact.core();
         let (robot, singularity) = (controller.robot, controller.singularity);
         let state = measured(state);
         let central = central_body(robot, &state)?;
@@ -89,13 +89,14 @@ impl<T: Real> ApproximateController<T> {
                     angular: desired.x.angular,
                 };
                 let central = CentralBody { velocity: Twist::zero(), ..central };
-                let still = RobotState { joint_rates: [[T::zero(); 6]; 2], ..state };
+                let still = RobotState { joint_rates: [[T::zero(); 6]; LEGS], ..state };
                 let legs = leg_kinematics(robot, &central, &still);
                 (fixed_foot_wrench(robot, &central, &legs, singularity, x)?, legs)
             }
         };
         let feet = wrench_distribution(wrench, &legs).ok_or(Fault::Overflow)?.in_central_axes;
-        let torques: [[T; 6]; 2] = std::array::from_fn(|leg| joint_torques(&legs[leg], feet[leg]));
+        let torques: [[T; 6]; LEGS] =
+            std::array::from_fn(|leg| joint_torques(&legs[leg], feet[leg]));
         match torques.iter().flatten().all(|torque| torque.is_finite()) {
             true => Ok((torques, wrench)),
             false => Err(Fault::Overflow),
@@ -103,7 +104,7 @@ impl<T: Real> ApproximateController<T> {
     }
 }
 
-impl<T: Real> Controller for ApproximateController<T> {
+impl<T: Real, const LEGS: usize> Controller for ApproximateController<T, LEGS> {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let (torques, wrench) = self.torques(state).map_err(ControlFailure::Fault)?;
         Ok(commanded(torques, wrench))

@@ -6,13 +6,14 @@
 use super::{Failure, Run};
 use crate::contact::ContactState;
 use crate::plant::StepFailure;
-use crate::record::{JOINTS, Sample};
+use crate::record::Sample;
+use crate::robot::Robot;
 use crate::scene::Scene;
 use serde::Serialize;
 use std::fmt::Write;
 
 /// What is known of a run's end.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Cause {
     /// The first torque beyond what any balance takes.
     pub runaway: Option<Runaway>,
@@ -25,10 +26,13 @@ pub struct Cause {
 }
 
 /// A torque that has run away.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Runaway {
-    /// Which joint.
+    /// Which joint, by its number.
     pub joint: usize,
+    /// Its name.
+    #[serde(skip)]
+    pub name: String,
     /// N·m
     pub torque_nm: f64,
     /// s
@@ -81,8 +85,8 @@ const BUDGET: u64 = 400_000;
 
 impl Cause {
     /// What the record alone says.
-    pub(super) fn of_record(samples: &[Sample]) -> Self {
-        Self { runaway: runaway(samples), feet_off: feet_off(samples), ..Self::default() }
+    pub(super) fn of_record(samples: &[Sample], robot: &Robot) -> Self {
+        Self { runaway: runaway(samples, robot), feet_off: feet_off(samples), ..Self::default() }
     }
 
     /// The same for people: what to try, and why.
@@ -97,15 +101,18 @@ impl Cause {
         if let StepTrial::Completes { step_s } = self.steps {
             return write!(out, "a shorter step: with {step_s:.3e} s the run completes (tried)");
         }
-        if let Some(Runaway { joint, torque_nm, time_s }) = self.runaway {
+        if let Some(Runaway { name, torque_nm, time_s, .. }) = &self.runaway {
             write!(
                 out,
-                "the control loop runs away, {torque_nm:.0} N·m in {} at {time_s:.3} s: a higher rate, a shorter \
-                 delay, lower gains",
-                JOINTS[joint]
+                "the control loop runs away, {torque_nm:.0} N·m in {name} at {time_s:.3} s: a higher rate, a shorter \
+                 delay, lower gains"
             )?;
         } else if self.feet_off > 0 {
-            let feet = if self.feet_off == 1 { "one foot is" } else { "both feet are" };
+            let feet = match self.feet_off {
+                1 => "one foot is".to_owned(),
+                2 => "both feet are".to_owned(),
+                more => format!("{more} feet are"),
+            };
             write!(out, "{feet} off the floor at the end: see in the record when they left it")?;
         } else {
             out.push_str("see the record of the last ticks");
@@ -132,18 +139,19 @@ impl Cause {
 }
 
 /// The first torque beyond [`WEIGHTS`]. At the start the potential energy is weight times height.
-fn runaway(samples: &[Sample]) -> Option<Runaway> {
+fn runaway(samples: &[Sample], robot: &Robot) -> Option<Runaway> {
     let bound = WEIGHTS * samples.first()?.energy[1];
     samples.iter().filter(|_| bound > 0.0).find_map(|sample| {
-        let joint = (0..JOINTS.len()).find(|j| sample.torques[*j].abs() > bound)?;
-        Some(Runaway { joint, torque_nm: sample.torques[joint], time_s: sample.time_s })
+        let joint = sample.torques.iter().position(|torque| torque.abs() > bound)?;
+        let name = robot.joints.get(joint).cloned().unwrap_or_default();
+        Some(Runaway { joint, name, torque_nm: sample.torques[joint], time_s: sample.time_s })
     })
 }
 
 fn feet_off(samples: &[Sample]) -> usize {
-    let contacts = samples.last().and_then(|sample| sample.contacts);
-    let is_off = |foot: &&[ContactState; 4]| foot.iter().all(|c| *c == ContactState::Free);
-    contacts.iter().flatten().filter(is_off).count()
+    let contacts = samples.last().and_then(|sample| sample.contacts.as_ref());
+    let is_off = |foot: &&Vec<ContactState>| foot.iter().all(|c| *c == ContactState::Free);
+    contacts.into_iter().flatten().filter(is_off).count()
 }
 
 /// Tells why a run ended early, with trials by `again`, which plays a scene from its start with the same controller;
@@ -157,7 +165,7 @@ pub fn explain(scene: &Scene, run: &mut Run, again: &mut dyn FnMut(&Scene) -> Op
         return;
     };
     let is_stopped = failure.kind == "stopped";
-    let mut cause = Cause::of_record(&run.samples);
+    let mut cause = Cause::of_record(&run.samples, &scene.robot());
     let mut left = BUDGET;
     let mut play = |scene: &Scene| {
         let steps = (scene.duration_s / scene.integrator.step_s) as u64;

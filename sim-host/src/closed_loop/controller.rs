@@ -6,6 +6,7 @@ use super::limiting::{LimitTally, Limiting};
 use super::supervised::SupervisedController;
 use crate::plant::PlantState;
 use crate::record::SupervisorMemory;
+use crate::robot::{SharedRobot, by_leg, with_tree};
 use crate::scene::{Scene, Workspace};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -13,11 +14,8 @@ use surefoot::Real;
 use surefoot::balance::{
     self, Fault, Gains, LeggedRobot, Reference, RobotState, StopReason, WorkspaceForm, tick,
 };
-use surefoot::model::robots::biped;
+use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, SymmetricMatrix3, Twist, Wrench};
-
-static ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
-static ROBOT_F32: LeggedRobot<f32, 2> = ROBOT.to_f32();
 
 /// Precision of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, clap::ValueEnum)]
@@ -30,10 +28,10 @@ pub enum Scalar {
 }
 
 /// A tick's answer, in f64 whatever the controller computes in.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Commanded {
-    /// N·m, left leg then right, hip to foot.
-    pub torques: [f64; 12],
+    /// N·m, one a joint in the robot's order.
+    pub torques: Vec<f64>,
     /// N, N·m, in the frame of the central body.
     pub desired_wrench: [f64; 6],
 }
@@ -137,34 +135,42 @@ impl ControlFailure {
 }
 
 /// The core's controller, run on the host in precision `T`.
-pub struct HostController<T: 'static> {
-    pub(super) controller: balance::Controller<'static, T, 2>,
+pub struct HostController<T, const LEGS: usize> {
+    robot: LeggedRobot<T, LEGS>,
+    gains: Gains<T>,
+    form: WorkspaceForm<T>,
     pub(super) reference: Reference<T>,
-    pub(super) limiting: Option<Limiting<T>>,
+    limiting: Option<Limiting<T, LEGS>>,
 }
 
 /// The controller of a scene, under its supervisor: what runs on the target.
 pub fn controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
-    match scalar {
-        Scalar::F32 => Box::new(SupervisedController::new(
-            HostController::new(&ROBOT_F32, scene),
-            biped::LIMITS.to_f32(),
-            scene,
-        )),
-        Scalar::F64 => Box::new(SupervisedController::new(
-            HostController::new(&ROBOT, scene),
-            biped::LIMITS,
-            scene,
-        )),
-    }
+    let robot = scene.robot();
+    with_tree!(&robot.tree, tree, LEGS => {
+        let (model, limits) = (legged::<_, _, _, LEGS>(tree), limits::<LEGS>(&robot));
+        match scalar {
+            Scalar::F32 => Box::new(SupervisedController::new(
+                HostController::new(model.to_f32(), scene),
+                limits.to_f32(),
+                scene,
+            )),
+            Scalar::F64 => {
+                Box::new(SupervisedController::new(HostController::new(model, scene), limits, scene))
+            }
+        }
+    })
 }
 
 /// The same without a supervisor.
 pub fn bare_controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
-    match scalar {
-        Scalar::F32 => Box::new(HostController::new(&ROBOT_F32, scene)),
-        Scalar::F64 => Box::new(HostController::new(&ROBOT, scene)),
-    }
+    let robot = scene.robot();
+    with_tree!(&robot.tree, tree, LEGS => {
+        let model = legged::<_, _, _, LEGS>(tree);
+        match scalar {
+            Scalar::F32 => Box::new(HostController::new(model.to_f32(), scene)),
+            Scalar::F64 => Box::new(HostController::new(model, scene)),
+        }
+    })
 }
 
 /// The same with something left out; feet are held exactly, whatever the scene says.
@@ -173,69 +179,107 @@ pub fn approximate_controller(
     scalar: Scalar,
     approximation: Approximation,
 ) -> Box<dyn Controller> {
-    match scalar {
-        Scalar::F32 => Box::new(ApproximateController::new(
-            HostController::new(&ROBOT_F32, scene),
-            approximation,
-        )),
-        Scalar::F64 => {
-            Box::new(ApproximateController::new(HostController::new(&ROBOT, scene), approximation))
+    let robot = scene.robot();
+    with_tree!(&robot.tree, tree, LEGS => {
+        let model = legged::<_, _, _, LEGS>(tree);
+        match scalar {
+            Scalar::F32 => Box::new(ApproximateController::new(
+                HostController::new(model.to_f32(), scene),
+                approximation,
+            )),
+            Scalar::F64 => Box::new(ApproximateController::new(
+                HostController::new(model, scene),
+                approximation,
+            )),
         }
-    }
+    })
 }
 
-impl<T: Real> HostController<T> {
+/// The controller's model of a scene's robot.
+fn legged<const N: usize, const NQ: usize, const NV: usize, const LEGS: usize>(
+    tree: &Tree<f64, N, NQ, NV>,
+) -> LeggedRobot<f64, LEGS> {
+    // A robot is made of such a tree only.
+    LeggedRobot::new(tree)
+}
+
+fn limits<const LEGS: usize>(robot: &SharedRobot) -> balance::SafetyLimits<f64, LEGS> {
+    robot.limits.sized().expect("a robot has limits for each of its joints")
+}
+
+impl<T: Real, const LEGS: usize> HostController<T, LEGS> {
     /// With a scene's gains, form and set point.
-    pub fn new(robot: &'static LeggedRobot<T, 2>, scene: &Scene) -> Self {
+    pub fn new(robot: LeggedRobot<T, LEGS>, scene: &Scene) -> Self {
         let diagonal =
             |[x, y, z]: [f64; 3]| SymmetricMatrix3::diagonal(T::of(x), T::of(y), T::of(z));
         let settings = &scene.controller;
-        let mut controller = balance::Controller::new(robot);
-        controller.gains = Gains {
-            position: diagonal(settings.position_gain),
-            velocity: diagonal(settings.velocity_gain),
-            orientation: diagonal(settings.orientation_gain),
-            angular_velocity: diagonal(settings.angular_velocity_gain),
-        };
-        controller.form = match settings.workspace {
-            Workspace::FixedFoot => WorkspaceForm::FixedFoot,
-            Workspace::BigBase(factor) => WorkspaceForm::BigBase { factor: T::of(factor) },
-        };
-        let reference = Reference::at_rest(
-            Vector3::from(scene.set_point.position_m.map(T::of)),
-            Quaternion::from_array(scene.set_point.orientation.map(T::of)),
-        );
-        Self { controller, reference, limiting: Limiting::of(scene, robot) }
+        let limiting = Limiting::of(scene, &robot);
+        Self {
+            robot,
+            limiting,
+            gains: Gains {
+                position: diagonal(settings.position_gain),
+                velocity: diagonal(settings.velocity_gain),
+                orientation: diagonal(settings.orientation_gain),
+                angular_velocity: diagonal(settings.angular_velocity_gain),
+            },
+            form: match settings.workspace {
+                Workspace::FixedFoot => WorkspaceForm::FixedFoot,
+                Workspace::BigBase(factor) => WorkspaceForm::BigBase { factor: T::of(factor) },
+            },
+            reference: Reference::at_rest(
+                Vector3::from(scene.set_point.position_m.map(T::of)),
+                Quaternion::from_array(scene.set_point.orientation.map(T::of)),
+            ),
+        }
+    }
+
+    /// As the core takes it.
+    pub(super) fn core(&self) -> balance::Controller<'_, T, LEGS> {
+        core(&self.robot, self.gains, self.form)
     }
 
     /// One tick, within limits if the scene has them.
     pub(super) fn command(
         &mut self,
-        state: &RobotState<T, 2>,
-    ) -> Result<balance::Command<T, 2>, Fault> {
-        let Self { controller, reference, limiting } = self;
-        match limiting {
-            None => tick(controller, state, reference),
-            Some(limiting) => limiting.tick(controller, state, reference),
+        state: &RobotState<T, LEGS>,
+    ) -> Result<balance::Command<T, LEGS>, Fault> {
+        let controller = core(&self.robot, self.gains, self.form);
+        match &mut self.limiting {
+            None => tick(&controller, state, &self.reference),
+            Some(limiting) => limiting.tick(&controller, state, &self.reference),
         }
     }
 }
 
+fn core<T: Real, const LEGS: usize>(
+    robot: &LeggedRobot<T, LEGS>,
+    gains: Gains<T>,
+    form: WorkspaceForm<T>,
+) -> balance::Controller<'_, T, LEGS> {
+    let mut controller = balance::Controller::new(robot);
+    controller.gains = gains;
+    controller.form = form;
+    controller
+}
+
 /// A measured state in precision `T`, as the core takes it.
-pub fn measured<T: Real>(state: &PlantState) -> RobotState<T, 2> {
-    let p: [T; 19] = state.positions.map(T::of);
-    let v: [T; 18] = state.velocities.map(T::of);
-    let leg = |all: &[T], leg: usize| std::array::from_fn(|i| all[6 * leg + i]);
+///
+/// # Panics
+/// For a state of fewer joints than the legs have.
+pub fn measured<T: Real, const LEGS: usize>(state: &PlantState) -> RobotState<T, LEGS> {
+    let p: [T; 7] = std::array::from_fn(|i| T::of(state.positions[i]));
+    let v: [T; 6] = std::array::from_fn(|i| T::of(state.velocities[i]));
     RobotState {
         position: Vector3::new(p[0], p[1], p[2]),
         orientation: Quaternion::from_array([p[3], p[4], p[5], p[6]]),
-        velocity: Twist::from_array([v[0], v[1], v[2], v[3], v[4], v[5]]),
-        joint_angles: [leg(&p[7..], 0), leg(&p[7..], 1)],
-        joint_rates: [leg(&v[6..], 0), leg(&v[6..], 1)],
+        velocity: Twist::from_array(v),
+        joint_angles: by_leg(&state.positions[7..]).map(|leg| leg.map(T::of)),
+        joint_rates: by_leg(&state.velocities[6..]).map(|leg| leg.map(T::of)),
     }
 }
 
-impl<T: Real> Controller for HostController<T> {
+impl<T: Real, const LEGS: usize> Controller for HostController<T, LEGS> {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let command = self.command(&measured(state)).map_err(ControlFailure::Fault)?;
         Ok(commanded(command.joint_torques, command.desired_wrench))
@@ -263,16 +307,12 @@ impl<T: Real> Controller for HostController<T> {
 }
 
 /// A tick's answer from precision `T`.
-pub(super) fn commanded<T: Real>(
-    [left, right]: [[T; 6]; 2],
+pub(super) fn commanded<T: Real, const LEGS: usize>(
+    torques: [[T; 6]; LEGS],
     desired_wrench: Wrench<T>,
 ) -> Commanded {
     Commanded {
-        torques: std::array::from_fn(
-            |i| {
-                if i < 6 { left[i].to_f64() } else { right[i - 6].to_f64() }
-            },
-        ),
+        torques: torques.as_flattened().iter().map(|torque| torque.to_f64()).collect(),
         desired_wrench: desired_wrench.to_array().map(Real::to_f64),
     }
 }

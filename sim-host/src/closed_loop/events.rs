@@ -1,41 +1,47 @@
 //! Events from contact states.
 
 use crate::contact::ContactState;
+use crate::plant::PerPoint;
 use crate::record::{Event, EventKind};
+use crate::robot::SharedRobot;
 
-/// Watches the contact states of both feet.
-#[derive(Debug, Default)]
+/// Watches the contact states of all feet.
+#[derive(Debug)]
 pub(super) struct Watch {
-    down: [bool; 2],
-    slipping: [bool; 2],
+    robot: SharedRobot,
+    down: Vec<bool>,
+    slipping: Vec<bool>,
     /// Heel and toe, by foot.
-    ends_down: [[bool; 2]; 2],
+    ends_down: Vec<[bool; 2]>,
     struck: bool,
 }
 
-const FEET: [&str; 2] = ["left foot", "right foot"];
-
 impl Watch {
+    /// Of a robot in the air.
+    pub(super) fn new(robot: SharedRobot) -> Self {
+        let feet = robot.feet.len();
+        let (down, slipping) = (vec![false; feet], vec![false; feet]);
+        Self { robot, down, slipping, ends_down: vec![[false; 2]; feet], struck: false }
+    }
+
     /// From contact states on, as if they had been looked at before.
-    pub(super) fn from(contacts: &[[ContactState; 4]; 2]) -> Self {
-        let mut watch = Self::default();
-        watch.look(0.0, contacts, &mut Vec::new());
-        watch
+    pub(super) fn begin_with(&mut self, contacts: &PerPoint<ContactState>) {
+        self.look(0.0, contacts, &mut Vec::new());
     }
 
     /// Appends what changed since the last look.
     pub(super) fn look(
         &mut self,
         time_s: f64,
-        contacts: &[[ContactState; 4]; 2],
+        contacts: &PerPoint<ContactState>,
         events: &mut Vec<Event>,
     ) {
-        for (foot, points) in contacts.iter().enumerate() {
+        for (foot, (of, points)) in self.robot.feet.iter().zip(contacts).enumerate() {
             let down = points.iter().any(|state| *state != ContactState::Free);
             let slipping = points.iter().any(|state| {
                 matches!(state, ContactState::Sliding | ContactState::StickingToSliding)
             });
-            let mut push = |kind| events.push(Event { time_s, kind, place: FEET[foot].to_owned() });
+            let mut push = |kind| events.push(Event { time_s, kind, place: of.name.clone() });
             match (self.down[foot], down) {
                 (false, true) => push(EventKind::TouchDown),
                 (true, false) => push(EventKind::LiftOff),
@@ -47,7 +53,12 @@ impl Watch {
                 (true, false) if down => push(EventKind::SlipEnd),
                 _ => {}
             }
-            let ends = [0, 2].map(|k| points[k..k + 2].iter().any(|s| *s != ContactState::Free));
+            let is_down = |points_there: &Vec<usize>| {
+                points_there
+                    .iter()
+                    .any(|k| points.get(*k).is_some_and(|s| *s != ContactState::Free))
+            };
+            let ends = [is_down(&of.ends[0]), is_down(&of.ends[1])];
             // A foot that comes or goes as a whole has said so.
             if self.down[foot] && down {
                 let kinds = [

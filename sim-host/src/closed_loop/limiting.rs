@@ -1,14 +1,14 @@
 //! What a scene's floor and motors can give, as its controller knows it.
 
 use crate::contact::Floor;
-use crate::scene::{Distribution, Feet, Outline, Scene};
+use crate::robot::{SharedRobot, by_leg};
+use crate::scene::{Distribution, Feet, Scene};
 use serde::Serialize;
 use surefoot::Real;
 use surefoot::balance::{
     self, Command, ContactLimit, Fault, Ground, LeggedRobot, LimitMemory, LimitReport, Reference,
     RobotState, Sole, WrenchLimits, limited_tick,
 };
-use surefoot::model::robots::biped;
 
 /// Shares of friction and of the soles' lengths that the controller counts on.
 const FRICTION_SHARE: f64 = 0.8;
@@ -17,20 +17,19 @@ const SOLE_SHARE: f64 = 0.92;
 const LEAST_FORCE: f64 = 5.0;
 /// Greatest force on a foot in weights of the robot.
 const MOST_WEIGHTS: f64 = 4.0;
-/// Height of a sole over the ankle, m.
-const SOLE_HEIGHT: f64 = -0.06;
 
 /// Limits of a scene, what the last tick leaves for the next, and what became of the ticks so far.
-pub(super) struct Limiting<T> {
-    limits: WrenchLimits<T, 2>,
+pub(super) struct Limiting<T, const LEGS: usize> {
+    robot: SharedRobot,
+    limits: WrenchLimits<T, LEGS>,
     memory: LimitMemory<T>,
-    contacts: [bool; 2],
+    contacts: [bool; LEGS],
     time_s: f64,
     tally: LimitTally,
 }
 
 /// How often limits bound, and which did most.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct LimitTally {
     /// Ticks.
     pub ticks: u64,
@@ -45,12 +44,12 @@ pub struct LimitTally {
 }
 
 /// A limit that bound.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WorstLimit {
     /// `lift`, `press`, `slip`, `tip`, `twist` or `torque`.
     pub limit: &'static str,
     /// Name of the leg.
-    pub leg: &'static str,
+    pub leg: String,
     /// Number of the joint, hip to foot from 0, of a torque.
     pub joint: Option<u8>,
     /// When, s.
@@ -59,28 +58,31 @@ pub struct WorstLimit {
     pub relief: f64,
 }
 
-impl<T: Real> Limiting<T> {
+impl<T: Real, const LEGS: usize> Limiting<T, LEGS> {
     /// Of a scene whose controller's distribution is limited.
-    pub fn of(scene: &Scene, robot: &LeggedRobot<T, 2>) -> Option<Self> {
-        let Feet::Floor { outline, floor } = &scene.feet else { return None };
+    pub fn of(scene: &Scene, model: &LeggedRobot<T, LEGS>) -> Option<Self> {
+        let Feet::Floor { floor, .. } = &scene.feet else { return None };
         if scene.controller.distribution != Distribution::Limited {
             return None;
         }
-        let weight = biped::TREE.mass() * 9.81;
+        let robot = scene.robot().clone();
+        let weight = robot.tree.mass() * robot.tree.gravity().norm();
         let ground = Ground {
             least_force: T::of(LEAST_FORCE),
             greatest_force: T::of(MOST_WEIGHTS * weight),
             friction: T::of(FRICTION_SHARE * friction(floor)),
         };
-        let mut torques = biped::LIMITS.joints.map(|leg| leg.map(|joint| joint.torque));
+        let joints: Vec<f64> = robot.limits.joints.iter().map(|joint| joint.torque).collect();
+        let mut torques: [[f64; 6]; LEGS] = by_leg(&joints);
         if let Some(motors) = scene.acting.torque_limits_nm {
             torques = torques.map(|leg| std::array::from_fn(|k| leg[k].min(motors[k])));
         }
-        let soles = [sole(*outline); 2];
-        let limits = WrenchLimits::new(robot, &soles, ground, &torques.map(|leg| leg.map(T::of)))
-            .expect("a checked floor, and a robot of this program");
+        let soles = robot.soles().expect("the scene's check has asked for soles");
+        let soles: [Sole<T>; LEGS] = std::array::from_fn(|leg| counted_on(&soles[leg]));
+        let limits = WrenchLimits::new(model, &soles, ground, &torques.map(|leg| leg.map(T::of)))
+            .expect("a checked floor, and a robot with limits");
         let (memory, tally) = (LimitMemory::new(), LimitTally::default());
-        Some(Self { limits, memory, contacts: [true; 2], time_s: 0.0, tally })
+        Some(Self { robot, limits, memory, contacts: [true; LEGS], time_s: 0.0, tally })
     }
 
     /// Which feet touch the ground at the next tick, and when that is.
@@ -94,17 +96,17 @@ impl<T: Real> Limiting<T> {
     /// One tick.
     pub fn tick(
         &mut self,
-        controller: &balance::Controller<'_, T, 2>,
-        state: &RobotState<T, 2>,
+        controller: &balance::Controller<'_, T, LEGS>,
+        state: &RobotState<T, LEGS>,
         reference: &Reference<T>,
-    ) -> Result<Command<T, 2>, Fault> {
+    ) -> Result<Command<T, LEGS>, Fault> {
         let Self { limits, memory, contacts, .. } = self;
         let answer = limited_tick(controller, limits, state, reference, contacts, memory)?;
         self.count(&answer.limits);
         Ok(answer.command)
     }
 
-    fn count(&mut self, report: &LimitReport<T, 2>) {
+    fn count(&mut self, report: &LimitReport<T, LEGS>) {
         let tally = &mut self.tally;
         tally.ticks += 1;
         tally.active += u64::from(report.is_limited());
@@ -115,7 +117,7 @@ impl<T: Real> Limiting<T> {
         ));
         let Some(reason) = report.worst else { return };
         let relief = reason.relief.to_f64();
-        if tally.worst.is_some_and(|worst| worst.relief >= relief) {
+        if tally.worst.as_ref().is_some_and(|worst| worst.relief >= relief) {
             return;
         }
         let (limit, joint) = match reason.limit {
@@ -126,13 +128,13 @@ impl<T: Real> Limiting<T> {
             ContactLimit::Twist => ("twist", None),
             ContactLimit::Torque(joint) => ("torque", Some(joint)),
         };
-        let leg = if reason.foot == 0 { "left" } else { "right" };
+        let leg = self.robot.legs.get(reason.foot).cloned().unwrap_or_default();
         tally.worst = Some(WorstLimit { limit, leg, joint, time_s: self.time_s, relief });
     }
 
     /// What became of the ticks so far.
     pub fn tally(&self) -> LimitTally {
-        self.tally
+        self.tally.clone()
     }
 
     /// Limits that bound at the last tick.
@@ -152,16 +154,11 @@ fn friction(floor: &Floor) -> f64 {
     floor.static_friction.min(floor.dynamic_friction)
 }
 
-/// The share of a sole that is counted on, from the ankle.
-fn sole<T: Real>(outline: Outline) -> Sole<T> {
-    let outline = outline.sole();
+/// The share of a sole that is counted on.
+fn counted_on<T: Real>(sole: &Sole<f64>) -> Sole<T> {
     let range = |[least, greatest]: [f64; 2]| {
         let (middle, half) = (0.5 * (least + greatest), 0.5 * SOLE_SHARE * (greatest - least));
         [T::of(middle - half), T::of(middle + half)]
     };
-    Sole {
-        x: range([-outline.toe, outline.heel]),
-        y: range([-outline.half_width, outline.half_width]),
-        z: T::of(SOLE_HEIGHT),
-    }
+    Sole { x: range(sole.x), y: range(sole.y), z: T::of(sole.z) }
 }

@@ -22,7 +22,11 @@ pub(super) fn remember(
     let Some(memory) = memory else {
         return scene.sensing.is_ideal() && scene.acting.is_ideal();
     };
-    sensors.skip(first, memory.encoder_counts);
+    let joints = sensors.joints();
+    if memory.encoder_counts.as_ref().is_some_and(|counts| counts.len() != joints) {
+        return false;
+    }
+    sensors.skip(first, memory.encoder_counts.as_deref());
     // Before the first tick encoders have nothing to remember.
     let same_encoders = scene.sensing.encoder_counts > 0 && first > 0;
     same_encoders == memory.encoder_counts.is_some() && motors.resume(&memory.torques)

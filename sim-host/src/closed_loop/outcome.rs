@@ -1,6 +1,7 @@
 //! How a run ended.
 
-use crate::record::{JOINTS, Sample};
+use crate::record::Sample;
+use crate::robot::Robot;
 use serde::Serialize;
 
 /// End of a run.
@@ -45,14 +46,14 @@ pub struct Peak {
 }
 
 /// The largest values of a run that the text prints.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Peaks {
     /// Vertical desired force, N.
     pub force_z: Peak,
     /// Desired torque of largest size about x, y and z, N·m.
     pub torque: [Peak; 3],
     /// Torque of largest size of each joint, N·m.
-    pub joints: [Peak; 12],
+    pub joints: Vec<Peak>,
 }
 
 impl Peaks {
@@ -65,7 +66,8 @@ impl Peaks {
                 .max_by(|a, b| a.value.abs().total_cmp(&b.value.abs()))
         };
         let first = peak(&|sample| sample.desired_wrench[2])?;
-        let mut peaks = Self { force_z: first, torque: [first; 3], joints: [first; 12] };
+        let joints = vec![first; samples.first()?.torques.len()];
+        let mut peaks = Self { force_z: first, torque: [first; 3], joints };
         for (i, torque) in peaks.torque.iter_mut().enumerate() {
             *torque = peak(&|sample| sample.desired_wrench[3 + i])?;
         }
@@ -75,14 +77,14 @@ impl Peaks {
         Some(peaks)
     }
 
-    /// The joint with the largest torque of all: its name and peak.
-    pub fn largest_joint(&self) -> (&'static str, Peak) {
+    /// The joint of the robot with the largest torque of all: its name and peak.
+    pub fn largest_joint<'a>(&self, robot: &'a Robot) -> Option<(&'a str, Peak)> {
         let mut best = 0;
         for (i, peak) in self.joints.iter().enumerate() {
             if peak.value.abs() > self.joints[best].value.abs() {
                 best = i;
             }
         }
-        (JOINTS[best], self.joints[best])
+        Some((robot.joints.get(best)?, *self.joints.get(best)?))
     }
 }

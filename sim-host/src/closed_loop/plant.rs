@@ -2,7 +2,7 @@
 
 use crate::integrators::Method;
 use crate::plant::{Additions, OnFloor, Plant, StepFailure, Struck, Variational, Welded};
-use crate::scene::{Block, Feet, Scene};
+use crate::scene::{Block, Feet, Outline, Scene};
 
 /// No contact code where feet are welded, no block and no stops where the scene has none, no more bodies than
 /// matter.
@@ -11,23 +11,25 @@ use crate::scene::{Block, Feet, Scene};
 /// A [`StepFailure`] for a start that is no configuration, or what the model cannot do.
 pub fn plant(scene: &Scene) -> Result<Box<dyn Plant>, StepFailure> {
     let (start, step) = (scene.initial.state(), scene.integrator.step_s);
-    let stops = scene.acting.joint_stops.map(|stops| stops.in_radians());
+    let robot = scene.robot();
+    let stops = scene.acting.joint_stops.map(|stops| stops.in_radians().to_vec());
     let block = scene.block.as_ref().map(Block::thrown);
     if scene.integrator.name == Method::Variational {
         let additions = Additions { model: scene.rung().model, stops, block };
         return Ok(Box::new(match &scene.feet {
-            Feet::Floor { outline, floor } => {
-                Variational::on_floor(&start, step, *floor, &outline.sole(), &additions)?
+            Feet::Floor { floor, .. } => {
+                Variational::on_floor(&robot, &start, step, *floor, &additions)?
             }
-            Feet::Welded {} => Variational::welded(&start, step, &additions)?,
+            Feet::Welded {} => Variational::welded(&robot, &start, step, &additions)?,
         }));
     }
     let (robot, floor): (Box<dyn Plant>, _) = match &scene.feet {
         Feet::Floor { outline, floor } => {
-            let robot = OnFloor::new(start, *floor, &outline.sole()).with_stops(stops);
+            let sole = outline.unwrap_or(Outline::A).sole();
+            let robot = OnFloor::new(&start, *floor, &sole).with_stops(stops);
             (Box::new(robot), Some(*floor))
         }
-        Feet::Welded {} => (Box::new(Welded::new(start)?.with_stops(stops)), None),
+        Feet::Welded {} => (Box::new(Welded::new(&start)?.with_stops(stops)), None),
     };
     Ok(match block {
         Some(block) => Box::new(Struck::new(robot, block, floor)),

@@ -13,7 +13,7 @@ use crate::contact::ContactState;
 use crate::follow::Follow;
 use crate::integrators::Progress;
 use crate::multibody::SystemError;
-use crate::plant::{Plant, PlantState};
+use crate::plant::{PerPoint, Plant, PlantState};
 use crate::record::{Event, MotionIdentity, Sample, SavedMotion, SavedRun};
 use crate::scene::{Scene, TorquesFrom};
 use nalgebra::Vector3;
@@ -65,8 +65,7 @@ pub struct Stop {
     pub reason: StopReason,
 }
 
-/// A central body this low (m), or tilted this far (cosine of 60°), has fallen.
-const FALLEN_HEIGHT: f64 = 0.55;
+/// A central body tilted this far (cosine of 60°) has fallen.
 const FALLEN_UPRIGHT: f64 = 0.5;
 
 /// Runs a scene to its end, until it fails, or until `follow`, which hears of the simulated time now and then, ends it.
@@ -103,7 +102,7 @@ pub fn run_plant(
     run.progress = plant.progress().copied();
     run = ended(run, result);
     if let Some(failure) = &mut run.failure {
-        let cause = Cause::of_record(&run.samples);
+        let cause = Cause::of_record(&run.samples, &scene.robot());
         if failure.kind == "step" && cause != Cause::default() {
             failure.advice = cause.advice();
         }
@@ -168,10 +167,14 @@ fn advance(
     // The scene's check has made sure that this is a whole number, at least 1.
     let steps_per_tick = (1.0 / (scene.controller.rate_hz * step)).round() as u64;
     let ticks = (scene.duration_s * scene.controller.rate_hz).round().max(1.0) as u64;
-    let mut watch = Watch::default();
+    let robot = scene.robot();
+    let joints = robot.joint_count();
+    let mut watch = Watch::new(robot.clone());
+    let (mut state, mut contacts) = (PlantState::home(joints), PerPoint::new());
+    let mut feet = Vec::with_capacity(robot.leg_count());
     let mut touched = scene.controller.torques_from == TorquesFrom::Start;
-    let mut sensors = Sensors::new(&scene.sensing, steps_per_tick as f64 * step);
-    let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize);
+    let mut sensors = Sensors::new(&scene.sensing, steps_per_tick as f64 * step, joints);
+    let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize, joints);
     let mut first = 0;
     if let Some(saved) = from {
         let SavedRun { torques_on, checkpoint, hardware, supervisor, motion, .. } = saved;
@@ -196,33 +199,34 @@ fn advance(
             controller.remember(memory);
         }
         controller.resume_limits(&saved.limit_rows);
-        watch = plant.contacts().as_ref().map_or(watch, Watch::from);
+        if plant.read_contacts(&mut contacts) {
+            watch.begin_with(&contacts);
+        }
         watch.look_at_block(0.0, plant.is_struck(), &mut Vec::new());
     }
     for tick in first..=ticks {
         let time = (tick * steps_per_tick) as f64 * step;
         touched |= watch.touched();
-        let state = plant.state().map_err(|failure| step_failure(time, failure))?;
+        plant.read_state(&mut state).map_err(|failure| step_failure(time, failure))?;
         // A run that is taken up again begins with this tick.
         let is_interrupted = tick % 25 == 0 && tick < ticks && follow.reached(time).is_break();
         let is_last = tick == ticks || is_interrupted;
         let memory = is_last.then(|| memory(scene, &sensors, &motors)).flatten();
         let supervisor = is_last.then(|| controller.memory()).flatten();
         // Before its first step a plant knows of no contact.
-        if tick > 0
-            && let Some(contacts) = plant.contacts()
-        {
-            let touches = |foot: &[_; 4]| foot.iter().any(|state| *state != ContactState::Free);
-            controller.touch(time, &contacts.each_ref().map(touches));
+        if tick > 0 && plant.read_contacts(&mut contacts) {
+            feet.clear();
+            feet.extend(contacts.iter().map(|foot| foot.iter().any(|s| *s != ContactState::Free)));
+            controller.touch(time, &feet);
         }
-        let command = command(&sensors.read(&state), controller, touched, time)?;
+        let command = command(sensors.read(&state), controller, touched, time)?;
         if run.stop.is_none() {
             run.stop = controller.stopped().map(|reason| Stop { time_s: time, reason });
         }
         motors.command(&command.torques, time);
         run.cut_torques = motors.cut();
-        sample(plant, scene, &state, (&command.desired_wrench, &motors.over_step(0)), time, run)?;
-        fallen(&state, time)?;
+        sample(plant, scene, &state, (&command.desired_wrench, motors.over_step(0)), time, run)?;
+        fallen(&state, robot.fallen_height, time)?;
         if is_last {
             run.is_interrupted = is_interrupted;
             run.saved = plant.checkpoint().map(|checkpoint| SavedRun {
@@ -242,11 +246,11 @@ fn advance(
             let begun = (first * steps_per_tick + run.steps) as f64 * step;
             let end = (first * steps_per_tick + run.steps + 1) as f64 * step;
             plant
-                .step(step, &motors.over_step(number), scene.push(begun, end))
+                .step(step, motors.over_step(number), scene.push(begun, end))
                 .map_err(|failure| step_failure(time, failure))?;
             run.steps += 1;
             let made = (first * steps_per_tick + run.steps) as f64 * step;
-            if let Some(contacts) = plant.contacts() {
+            if plant.read_contacts(&mut contacts) {
                 watch.look(made, &contacts, &mut run.events);
             }
             watch.look_at_block(made, plant.is_struck(), &mut run.events);
@@ -263,7 +267,7 @@ fn command(
     time: f64,
 ) -> Result<Commanded, Failure> {
     if !active {
-        return Ok(Commanded { torques: [0.0; 12], desired_wrench: [0.0; 6] });
+        return Ok(Commanded { torques: vec![0.0; measured.joints()], desired_wrench: [0.0; 6] });
     }
     controller.tick(measured).map_err(|failure| Failure {
         kind: failure.kind(),
@@ -277,7 +281,7 @@ fn sample(
     plant: &mut dyn Plant,
     scene: &Scene,
     state: &PlantState,
-    (desired_wrench, torques): (&[f64; 6], &[f64; 12]),
+    (desired_wrench, torques): (&[f64; 6], &[f64]),
     time_s: f64,
     run: &mut Run,
 ) -> Result<(), Failure> {
@@ -286,9 +290,9 @@ fn sample(
     run.constraint_max = run.constraint_max.max(seen.constraint);
     run.samples.push(Sample {
         time_s,
-        positions: state.positions,
-        velocities: state.velocities,
-        torques: *torques,
+        positions: state.positions.clone(),
+        velocities: state.velocities.clone(),
+        torques: torques.to_vec(),
         desired_wrench: *desired_wrench,
         position_error,
         orientation_error,
@@ -301,11 +305,11 @@ fn sample(
     Ok(())
 }
 
-fn fallen(state: &PlantState, time: f64) -> Result<(), Failure> {
+fn fallen(state: &PlantState, lowest: f64, time: f64) -> Result<(), Failure> {
     let p = &state.positions;
     let up = Quaternion::from_array([p[3], p[4], p[5], p[6]]).rotate(Vector3::z()).z;
-    let what = if p[2] < FALLEN_HEIGHT {
-        format!("the central body is at {:.2} m, below {FALLEN_HEIGHT} m", p[2])
+    let what = if p[2] < lowest {
+        format!("the central body is at {:.2} m, below {lowest} m", p[2])
     } else if up < FALLEN_UPRIGHT {
         format!("the central body is tilted by {:.0}°", up.acos().to_degrees())
     } else {

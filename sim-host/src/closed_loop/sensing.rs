@@ -8,45 +8,58 @@ use std::f64::consts::TAU;
 /// The sensors of a robot, read once a tick. Ideal ones read the state as it is.
 #[derive(Clone, Debug)]
 pub struct Sensors {
+    /// What they have read last.
+    seen: PlantState,
     encoders: Option<Encoders>,
     estimate: Option<Estimate>,
 }
 
 impl Sensors {
-    /// As a scene has them, for ticks `period_s` apart.
-    pub fn new(sensing: &Sensing, period_s: f64) -> Self {
+    /// As a scene has them for so many joints, for ticks `period_s` apart.
+    pub fn new(sensing: &Sensing, period_s: f64, joints: usize) -> Self {
         Self {
+            seen: PlantState::home(joints),
             encoders: (sensing.encoder_counts > 0).then(|| Encoders {
                 count: TAU / f64::from(sensing.encoder_counts),
                 period_s,
-                last: None,
+                is_read: false,
+                last: vec![0.0; joints],
             }),
             estimate: sensing.is_noisy().then(|| Estimate::new(sensing, period_s)),
         }
     }
 
     /// What they read at the next tick, where the state is `truth`.
-    pub fn read(&mut self, truth: &PlantState) -> PlantState {
-        let mut seen = *truth;
+    pub fn read(&mut self, truth: &PlantState) -> &PlantState {
+        self.seen.clone_from(truth);
         if let Some(encoders) = &mut self.encoders {
-            encoders.read(truth, &mut seen);
+            encoders.read(truth, &mut self.seen);
         }
         if let Some(estimate) = &mut self.estimate {
             estimate.advance();
-            estimate.apply(truth, &mut seen);
+            estimate.apply(truth, &mut self.seen);
         }
-        seen
+        &self.seen
+    }
+
+    /// How many joints they read.
+    pub(super) fn joints(&self) -> usize {
+        self.seen.joints()
     }
 
     /// The encoders' counts at the last tick; `None` for ideal ones, and before the first.
-    pub(super) fn counts(&self) -> Option<[f64; 12]> {
-        self.encoders.as_ref().and_then(|encoders| encoders.last)
+    pub(super) fn counts(&self) -> Option<Vec<f64>> {
+        let encoders = self.encoders.as_ref().filter(|encoders| encoders.is_read)?;
+        Some(encoders.last.clone())
     }
 
     /// As if they had been read at `ticks` ticks, the encoders' counts being `counts` at the last.
-    pub(super) fn skip(&mut self, ticks: u64, counts: Option<[f64; 12]>) {
+    pub(super) fn skip(&mut self, ticks: u64, counts: Option<&[f64]>) {
         if let Some(encoders) = &mut self.encoders {
-            encoders.last = counts;
+            encoders.is_read = counts.is_some();
+            for (last, count) in encoders.last.iter_mut().zip(counts.unwrap_or_default()) {
+                *last = *count;
+            }
         }
         if let Some(estimate) = &mut self.estimate {
             // No more than the noise itself: it does not know the state.
@@ -64,22 +77,26 @@ struct Encoders {
     /// rad
     count: f64,
     period_s: f64,
-    /// Whole counts at the last tick, left leg then right.
-    last: Option<[f64; 12]>,
+    /// Whether there was a tick.
+    is_read: bool,
+    /// Whole counts at the last one, one a joint.
+    last: Vec<f64>,
 }
 
 impl Encoders {
     fn read(&mut self, truth: &PlantState, seen: &mut PlantState) {
         let (angles, rates) = (&truth.positions[7..], &truth.velocities[6..]);
-        let counts: [f64; 12] = std::array::from_fn(|i| (angles[i] / self.count).round());
-        // Before the first tick the robot is taken to have moved as at it.
-        let before = self.last.unwrap_or_else(|| {
-            std::array::from_fn(|i| ((angles[i] - rates[i] * self.period_s) / self.count).round())
-        });
-        for i in 0..12 {
-            seen.positions[7 + i] = counts[i] * self.count;
-            seen.velocities[6 + i] = (counts[i] - before[i]) * self.count / self.period_s;
+        for (i, last) in self.last.iter_mut().enumerate() {
+            let count = (angles[i] / self.count).round();
+            // Before the first tick the robot is taken to have moved as at it.
+            let before = match self.is_read {
+                true => *last,
+                false => ((angles[i] - rates[i] * self.period_s) / self.count).round(),
+            };
+            seen.positions[7 + i] = count * self.count;
+            seen.velocities[6 + i] = (count - before) * self.count / self.period_s;
+            *last = count;
         }
-        self.last = Some(counts);
+        self.is_read = true;
     }
 }

@@ -6,6 +6,7 @@ use super::controller::{
 use super::limiting::LimitTally;
 use crate::plant::PlantState;
 use crate::record::{self, MeasuredBefore};
+use crate::robot::{LEG, by_leg};
 use crate::scene::Scene;
 use nalgebra::Vector3;
 use surefoot::Real;
@@ -13,18 +14,22 @@ use surefoot::balance::{Before, SafetyLimits, StopReason, Supervisor, Supervisor
 use surefoot::spatial::Wrench;
 
 /// A controller and its supervisor, armed.
-pub struct SupervisedController<T: 'static> {
-    inner: HostController<T>,
-    supervisor: Supervisor<T, 2>,
+pub struct SupervisedController<T, const LEGS: usize> {
+    inner: HostController<T, LEGS>,
+    supervisor: Supervisor<T, LEGS>,
 }
 
-impl<T: Real> SupervisedController<T> {
+impl<T: Real, const LEGS: usize> SupervisedController<T, LEGS> {
     /// For a scene's ticks.
     ///
     /// # Panics
     /// Where the robot's description has limits that are none, or the scene no control rate: the
     /// scene's check refuses the latter.
-    pub fn new(inner: HostController<T>, limits: SafetyLimits<T, 2>, scene: &Scene) -> Self {
+    pub fn new(
+        inner: HostController<T, LEGS>,
+        limits: SafetyLimits<T, LEGS>,
+        scene: &Scene,
+    ) -> Self {
         let period = T::of(1.0 / scene.controller.rate_hz);
         let mut supervisor = Supervisor::new(limits, period)
             .expect("limits of the robot, period of a checked scene");
@@ -33,7 +38,7 @@ impl<T: Real> SupervisedController<T> {
     }
 }
 
-impl<T: Real> Controller for SupervisedController<T> {
+impl<T: Real, const LEGS: usize> Controller for SupervisedController<T, LEGS> {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let reference = self.inner.reference;
         let tick = |now: &_| self.inner.command(now);
@@ -64,28 +69,26 @@ impl<T: Real> Controller for SupervisedController<T> {
 
     fn memory(&self) -> Option<record::SupervisorMemory> {
         let memory = self.supervisor.memory();
-        let flat = |legs: &[[T; 6]; 2]| std::array::from_fn(|i| legs[i / 6][i % 6].to_f64());
+        let flat = |legs: &[[T; 6]; LEGS]| -> Vec<f64> {
+            legs.as_flattened().iter().map(|x| x.to_f64()).collect()
+        };
         Some(record::SupervisorMemory {
             mode: memory.mode,
             reason: memory.reason,
             torques: flat(&memory.torques),
             before: memory.before.as_ref().map(|before| {
-                let (angles, rates): ([f64; 12], [f64; 12]) =
-                    (flat(&before.state.joint_angles), flat(&before.state.joint_rates));
-                let pose: [T; 4] = before.state.orientation.to_array();
-                let twist: [T; 6] = before.state.velocity.to_array();
+                let measured = &before.state;
+                let pose = measured.position.iter().copied().chain(measured.orientation.to_array());
+                let twist: [T; 6] = measured.velocity.to_array();
+                let mut positions: Vec<f64> = pose.map(Real::to_f64).collect();
+                let mut velocities = twist.map(Real::to_f64).to_vec();
+                positions.extend(flat(&measured.joint_angles));
+                velocities.extend(flat(&measured.joint_rates));
                 MeasuredBefore {
-                    positions: std::array::from_fn(|i| match i {
-                        0..3 => before.state.position[i].to_f64(),
-                        3..7 => pose[i - 3].to_f64(),
-                        _ => angles[i - 7],
-                    }),
-                    velocities: std::array::from_fn(|i| match i {
-                        0..6 => twist[i].to_f64(),
-                        _ => rates[i - 6],
-                    }),
+                    positions,
+                    velocities,
                     velocity: std::array::from_fn(|i| before.velocity[i].to_f64()),
-                    unexplained: before.unexplained,
+                    unexplained: before.unexplained.to_vec(),
                 }
             }),
             missed: memory.missed,
@@ -99,20 +102,27 @@ impl<T: Real> Controller for SupervisedController<T> {
     }
 
     fn remember(&mut self, memory: &record::SupervisorMemory) -> bool {
-        let legs = |flat: &[f64; 12]| {
-            std::array::from_fn(|leg| std::array::from_fn(|joint| T::of(flat[6 * leg + joint])))
-        };
+        let joints = LEGS * LEG;
+        let fits = memory.torques.len() == joints
+            && memory.before.as_ref().is_none_or(|before| {
+                before.positions.len() == 7 + joints
+                    && before.velocities.len() == 6 + joints
+                    && before.unexplained.len() == LEGS
+            });
+        if !fits {
+            return false;
+        }
         self.supervisor.remember(SupervisorMemory {
             mode: memory.mode,
             reason: memory.reason,
-            torques: legs(&memory.torques),
+            torques: by_leg(&memory.torques).map(|leg| leg.map(T::of)),
             before: memory.before.as_ref().map(|before| Before {
                 state: measured(&PlantState {
-                    positions: before.positions,
-                    velocities: before.velocities,
+                    positions: before.positions.clone(),
+                    velocities: before.velocities.clone(),
                 }),
                 velocity: Vector3::from(before.velocity.map(T::of)),
-                unexplained: before.unexplained,
+                unexplained: std::array::from_fn(|leg| before.unexplained[leg]),
             }),
             missed: memory.missed,
             owed: memory.owed,

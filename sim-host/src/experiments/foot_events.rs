@@ -65,6 +65,7 @@ mod tests {
             progress: None,
             saved: None,
             costs: None,
+            limits: None,
             cut_torques: crate::closed_loop::CutTorques::default(),
             stop: None,
         }

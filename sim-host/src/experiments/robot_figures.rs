@@ -4,7 +4,8 @@ use super::{Comparison, experiment_1, experiment_2};
 use crate::chart::{ChartError, RUN_FIGURES};
 use crate::closed_loop::{Run, Scalar, controller, run};
 use crate::picture::{Shown, still};
-use crate::scene::{SceneError, TorquesFrom, load};
+use crate::robot::biped;
+use crate::scene::{Outline, SceneError, TorquesFrom, load};
 use surefoot::dynamics::DynamicsFault;
 
 /// How figures 4.3 to 4.19 are read.
@@ -131,7 +132,7 @@ fn charts(
         .map(|(i, (name, figure))| {
             let number = name.trim_start_matches("figure-");
             let title = format!("Figure {number}, {of}");
-            let svg = figure.svg(&title, &run.samples, &run.events)?;
+            let svg = figure.svg(&title, &biped(Outline::A), &run.samples, &run.events)?;
             Ok(RobotFigure { name, svg, rows: rows(i, run) })
         })
         .collect()

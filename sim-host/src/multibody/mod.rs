@@ -39,7 +39,7 @@ pub use joint_law::{JointLaw, Stops};
 pub use planar::{NotPlanar, PlanarCheckpoint, PlanarError, PlanarSimulation, Plane};
 pub use recursive::{Checkpoint, Simulation, StepForecast};
 pub use reduction::{Frame, Reduced, Rerooted, Seat, Side, lumped, merged, rerooted};
-pub use robot::{states_of_tree, system_of_tree};
+pub use robot::{PrincipalAxes, principal_system_of_tree, states_of_tree, system_of_tree};
 pub use single_body::{BodyCheckpoint, NotSingle, SingleBody, SingleBodyError};
 pub use striker::{BOX_POINTS, CORNERS, Striker};
 pub use system::{Link, Site, System};

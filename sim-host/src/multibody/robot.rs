@@ -4,9 +4,9 @@ use super::body::{Body, BodyState};
 use super::joint::{Joint, JointConstraint};
 use super::system::{Link, System};
 use super::system_error::SystemError;
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
 use surefoot::dynamics::{DynamicsFault, body_poses, body_velocities, joint_poses};
-use surefoot::model::{JointKind, Tree};
+use surefoot::model::{BodyShape, JointKind, Tree};
 use surefoot::spatial::{Pose, Quaternion};
 
 /// The system that moves as a tree does: links and bodies' frames are the tree's, in its order.
@@ -17,21 +17,45 @@ use surefoot::spatial::{Pose, Quaternion};
 pub fn system_of_tree<const N: usize, const NQ: usize, const NV: usize>(
     tree: &Tree<f64, N, NQ, NV>,
 ) -> Result<System, SystemError> {
+    let (system, axes) = principal_system_of_tree(tree)?;
+    match axes.iter().position(Option::is_some) {
+        Some(link) => {
+            let what = "a body frame along the body's principal axes";
+            Err(SystemError::Unsupported { link, what })
+        }
+        None => Ok(system),
+    }
+}
+
+/// Principal axes of each body, seen from its frame; `None` where they are the frame's.
+pub type PrincipalAxes = Vec<Option<Rotation3<f64>>>;
+
+/// The same with links' frames along their principal axes: these seen from the bodies' frames of the tree.
+///
+/// # Errors
+/// As for [`system_of_tree`], but of principal axes.
+pub fn principal_system_of_tree<const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<f64, N, NQ, NV>,
+) -> Result<(System, PrincipalAxes), SystemError> {
     let gravity = tree.gravity();
     if gravity.x != 0.0 || gravity.y != 0.0 {
         return Err(SystemError::Unsupported { link: 0, what: "gravity along z" });
     }
-    let home = home_poses(tree)?;
+    let mut home = home_poses(tree)?;
+    let mut axes = Vec::with_capacity(N);
     let mut links = Vec::with_capacity(N);
     for k in 0..N {
         let unsupported = |what| SystemError::Unsupported { link: k, what };
         // k < N, so that both are there.
-        let (Some(shape), Some(kind)) = (tree.body_shape(k), tree.joint(k)) else { break };
+        let (Some(mut shape), Some(kind)) = (tree.body_shape(k), tree.joint(k)) else { break };
         let diagonal = shape.inertia.diagonal();
         let products = (shape.inertia - Matrix3::from_diagonal(&diagonal)).abs().max();
-        if products > 1e-12 * diagonal.sum() {
-            return Err(unsupported("a body frame along the body's principal axes"));
+        let turned = (products > 1e-12 * diagonal.sum()).then(|| principal_axes(&mut shape));
+        if let Some(turned) = &turned {
+            home[k].rotation *= turned.matrix();
         }
+        axes.push(turned);
+        let diagonal = shape.inertia.diagonal();
         // Left out, it would be a lighter robot without a word.
         if shape.rotor_inertia != 0.0 {
             return Err(unsupported("a joint without rotor inertia"));
@@ -61,7 +85,20 @@ pub fn system_of_tree<const N: usize, const NQ: usize, const NV: usize>(
             body: Body { mass: shape.mass, inertia: diagonal.into() },
         });
     }
-    System::new(links, -gravity.z)
+    Ok((System::new(links, -gravity.z)?, axes))
+}
+
+/// Turns a body's frame along its principal axes; gives these, seen from the frame before.
+fn principal_axes(shape: &mut BodyShape<f64>) -> Rotation3<f64> {
+    let found = SymmetricEigen::new(shape.inertia);
+    let mut axes = found.eigenvectors;
+    if axes.determinant() < 0.0 {
+        axes.column_mut(2).neg_mut();
+    }
+    shape.inertia = Matrix3::from_diagonal(&found.eigenvalues);
+    shape.joint = axes.tr_mul(&shape.joint);
+    shape.axis = axes.tr_mul(&shape.axis);
+    Rotation3::from_matrix_unchecked(axes)
 }
 
 /// States and rates of all bodies of a tree.

@@ -6,7 +6,7 @@ use crate::newton::NewtonFailure;
 /// Newton steps at most.
 const MOST_ITERATIONS: u32 = 40;
 /// Halvings of a Newton step at most.
-const MOST_HALVINGS: u32 = 12;
+const MOST_HALVINGS: u32 = 30;
 /// Residuals, relative to their terms, that count as a root once they fall no further.
 const TOLERANCE: f64 = 1e-10;
 /// The same where they fall slowly by an old elimination: above it a new one is worth its cost.

@@ -1,11 +1,13 @@
 //! One motion on one rung.
 
 use crate::closed_loop::{self, Scalar};
+use crate::contact::ContactState;
 use crate::integrators::{Progress, StepError};
 use crate::mechanism::StartFailure;
 use crate::multibody::{ConstrainedSimulation, Simulation, SystemError, lumped};
-use crate::plant::{BipedModel, Observation, Plant, PlantState, SMALL_BODIES, StepFailure};
-use crate::scene::{AnyScene, Feet, ModelChoice, Scene, SceneError, open};
+use crate::plant::{Observation, PerPoint, Plant, PlantState, RobotModel, StepFailure};
+use crate::robot::{SMALL_BODIES, biped};
+use crate::scene::{AnyScene, Feet, ModelChoice, Outline, Scene, SceneError, open};
 use serde::Serialize;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
@@ -88,7 +90,7 @@ impl Rung {
 
     /// How many bodies the robot has.
     pub fn bodies(self) -> usize {
-        self.model().bodies()
+        biped(Outline::A).bodies_of(self.model())
     }
 
     /// The rung that it is compared with: the larger model of the same motion. What welding does is told by
@@ -103,10 +105,10 @@ impl Rung {
         }
     }
 
-    fn model(self) -> BipedModel {
+    fn model(self) -> RobotModel {
         match self {
-            Self::FlightLumped | Self::FloorLumped | Self::WeldedLumped => BipedModel::Lumped,
-            _ => BipedModel::Full,
+            Self::FlightLumped | Self::FloorLumped | Self::WeldedLumped => RobotModel::Lumped,
+            _ => RobotModel::Full,
         }
     }
 
@@ -163,8 +165,8 @@ impl Rung {
             scene.feet = Feet::Welded {};
         }
         scene.model = match self.model() {
-            BipedModel::Full => ModelChoice::Full,
-            BipedModel::Lumped => ModelChoice::Lumped,
+            RobotModel::Full => ModelChoice::Full,
+            RobotModel::Lumped => ModelChoice::Lumped,
         };
         scene.check()?;
         let plants: Result<Vec<_>, _> = (0..copies).map(|_| closed_loop::plant(&scene)).collect();
@@ -205,14 +207,14 @@ struct Copies {
 }
 
 impl Plant for Copies {
-    fn state(&mut self) -> Result<PlantState, StepFailure> {
-        self.plants[0].state()
+    fn read_state(&mut self, state: &mut PlantState) -> Result<(), StepFailure> {
+        self.plants[0].read_state(state)
     }
 
     fn step(
         &mut self,
         step_s: f64,
-        torques: &[f64; 12],
+        torques: &[f64],
         load: Option<Wrench<f64>>,
     ) -> Result<(), StepFailure> {
         let begun = Instant::now();
@@ -221,8 +223,12 @@ impl Plant for Copies {
         made
     }
 
-    fn contacts(&self) -> Option<[[crate::contact::ContactState; 4]; 2]> {
-        self.plants[0].contacts()
+    fn read_contacts(&self, contacts: &mut PerPoint<ContactState>) -> bool {
+        self.plants[0].read_contacts(contacts)
+    }
+
+    fn unknowns(&self) -> usize {
+        self.plants[0].unknowns()
     }
 
     fn is_struck(&self) -> bool {

@@ -30,13 +30,13 @@ mod tests {
     fn frames_are_few_enough_and_have_both_ends() {
         let sample = |time_s: f64| Sample {
             time_s,
-            positions: [0.0; 19],
-            velocities: [0.0; 18],
-            torques: [0.0; 12],
+            positions: vec![0.0; 19],
+            velocities: vec![0.0; 18],
+            torques: vec![0.0; 12],
             desired_wrench: [0.0; 6],
             position_error: [0.0; 3],
             orientation_error: [1.0, 0.0, 0.0, 0.0],
-            foot_forces: [0.0; 2],
+            foot_forces: vec![0.0; 2],
             contacts: None,
             energy: [0.0; 2],
             corner_forces: None,

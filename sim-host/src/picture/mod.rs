@@ -2,14 +2,12 @@
 
 mod frames;
 mod placed;
-mod robot;
 mod shown;
 mod solid;
 mod still;
 mod view;
 
 pub use frames::frames;
-pub use robot::{BODY_NAMES, body_poses_at, robot_solids};
 pub use shown::{DESIRED_FORCE_LENGTH, FORCE_LENGTH, Shown, TORQUE_LENGTH};
 pub use solid::Solid;
 pub use still::still;

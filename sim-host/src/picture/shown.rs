@@ -1,9 +1,8 @@
 //! What there is to see of a scene.
 
-use super::{Solid, robot_solids};
+use super::Solid;
+use crate::robot::SharedRobot;
 use crate::scene::{Feet, Scene, SetPoint};
-use nalgebra::Vector3;
-use surefoot::model::robots::biped::SoleOutline;
 
 /// Length of an arrow for a force of the ground or the block, m/N.
 pub const FORCE_LENGTH: f64 = 1e-3;
@@ -17,10 +16,10 @@ pub const TORQUE_LENGTH: f64 = 6e-3;
 /// What there is to see of a scene, besides what moves.
 #[derive(Clone, Debug)]
 pub struct Shown {
-    /// A solid for each body.
-    pub solids: [Solid; 13],
-    /// Corners of a sole in its foot's frame, m; `None` where the feet are held.
-    pub corners: Option<[Vector3<f64>; 4]>,
+    /// The robot.
+    pub robot: SharedRobot,
+    /// Whether its feet touch a floor, and are not held.
+    pub has_contacts: bool,
     /// The thrown block, in its frame.
     pub block: Option<Solid>,
     /// Where the central body should be.
@@ -30,13 +29,9 @@ pub struct Shown {
 impl Shown {
     /// Of a scene.
     pub fn of(scene: &Scene) -> Self {
-        let (sole, corners) = match scene.feet {
-            Feet::Floor { outline, .. } => (outline.sole(), Some(outline.sole().corners())),
-            Feet::Welded {} => (SoleOutline::A, None),
-        };
         Self {
-            solids: robot_solids(&sole),
-            corners,
+            robot: scene.robot(),
+            has_contacts: matches!(scene.feet, Feet::Floor { .. }),
             block: scene.block.map(|block| Solid::cuboid(block.size_m)),
             set_point: scene.set_point,
         }

@@ -2,13 +2,12 @@
 
 use super::placed::{Placed, back_to_front};
 use super::view::View;
-use super::{FORCE_LENGTH, Shown, body_poses_at};
+use super::{FORCE_LENGTH, Shown};
 use crate::chart::OKABE_ITO;
 use crate::record::Sample;
 use nalgebra::Vector3;
 use std::fmt::Write;
 use surefoot::dynamics::DynamicsFault;
-use surefoot::model::robots::biped::FEET;
 use surefoot::spatial::{Pose, Quaternion};
 
 const WIDTH: f64 = 900.0;
@@ -39,7 +38,7 @@ pub fn still(shown: &Shown, samples: &[Sample], time_s: f64) -> Result<String, D
          <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#FFFFFF\"/>\n"
     );
     if let Some(sample) = nearest {
-        let poses = body_poses_at(&sample.positions)?;
+        let poses = shown.robot.tree.body_poses(&sample.positions)?;
         // Writing to a string cannot fail.
         let _ = scene(&mut svg, shown, sample, &poses);
     }
@@ -51,7 +50,7 @@ fn scene(
     svg: &mut String,
     shown: &Shown,
     sample: &Sample,
-    poses: &[Pose<f64>; 13],
+    poses: &[Pose<f64>],
 ) -> std::fmt::Result {
     let center = Vector3::new(poses[0].position.x, poses[0].position.y, 0.75);
     let view = View::new(
@@ -62,11 +61,12 @@ fn scene(
         [WIDTH / 2.0, 0.53 * HEIGHT],
     );
     let mut solids: Vec<(Placed<'_>, Color)> = shown
-        .solids
+        .robot
+        .shapes
         .iter()
         .zip(poses)
         .enumerate()
-        .map(|(k, (solid, pose))| (Placed::new(solid, pose), color(k)))
+        .map(|(k, (solid, pose))| (Placed::new(solid, pose), color(shown.robot.leg_of(k))))
         .collect();
     if let (Some(solid), Some(block)) = (&shown.block, &sample.block) {
         let [x, y, z, s, i, j, k] = block.pose;
@@ -94,11 +94,11 @@ fn scene(
 }
 
 /// Left and right legs differ, as does the body.
-fn color(body: usize) -> Color {
-    match body {
-        0 => BODY,
-        1..=6 => LEFT_LEG,
-        _ => RIGHT_LEG,
+fn color(leg: Option<usize>) -> Color {
+    match leg {
+        None => BODY,
+        Some(leg) if leg % 2 == 0 => LEFT_LEG,
+        Some(_) => RIGHT_LEG,
     }
 }
 
@@ -125,15 +125,15 @@ fn ground_forces(
     view: &View,
     shown: &Shown,
     sample: &Sample,
-    poses: &[Pose<f64>; 13],
+    poses: &[Pose<f64>],
 ) -> std::fmt::Result {
-    let (Some(corners), Some(forces)) = (shown.corners, sample.corner_forces) else {
+    let Some(forces) = sample.corner_forces.as_ref().filter(|_| shown.has_contacts) else {
         return Ok(());
     };
-    for (foot, forces) in FEET.iter().zip(forces) {
-        for (corner, force) in corners.iter().zip(forces) {
-            let at = poses[*foot].transform_point(*corner);
-            let force = Vector3::from(force);
+    for (foot, forces) in shown.robot.feet.iter().zip(forces) {
+        for (point, force) in foot.points.iter().zip(forces) {
+            let at = poses[foot.body].transform_point(point.at);
+            let force = Vector3::from(*force);
             if force.norm() > 1.0 {
                 arrow(svg, view, at, at + force * FORCE_LENGTH, GROUND_FORCE)?;
             }

@@ -1,14 +1,17 @@
 //! Moving a configuration along a velocity.
 
-use super::{NQ, NV};
 use nalgebra::Vector3;
 use surefoot::spatial::Quaternion;
 
-/// The biped's configuration after turning and moving at constant `velocities` for `h` seconds.
+/// A floating robot's configuration after turning and moving at constant `velocities` for `h` seconds.
 ///
 /// The quaternion follows the exponential map, so that it stays of unit norm; the position moves
 /// along the body velocity in the orientation half way, which is second order in h.
-pub fn retract(positions: &[f64; NQ], velocities: &[f64; NV], h: f64) -> [f64; NQ] {
+pub fn retract<const NQ: usize, const NV: usize>(
+    positions: &[f64; NQ],
+    velocities: &[f64; NV],
+    h: f64,
+) -> [f64; NQ] {
     let mut next = *positions;
     let [px, py, pz, s, x, y, z] = std::array::from_fn(|i| positions[i]);
     let [vx, vy, vz, wx, wy, wz] = std::array::from_fn(|i| velocities[i]);

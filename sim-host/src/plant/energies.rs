@@ -1,17 +1,17 @@
-//! Energies of the biped.
+//! Energies of a tree.
 
-use super::{NQ, NV};
 use surefoot::dynamics::JointPoses;
-use surefoot::model::robots::biped::TREE;
+use surefoot::model::Tree;
 use surefoot::spatial::Pose;
 
-/// Kinetic energy, and potential energy of gravity, of the biped.
-pub(super) fn energies(
-    poses: &[Pose<f64>; 13],
-    joint_poses: &JointPoses<f64, 13, NQ>,
+/// Kinetic energy, and potential energy of gravity, of a tree.
+pub(super) fn energies<const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<f64, N, NQ, NV>,
+    poses: &[Pose<f64>; N],
+    joint_poses: &JointPoses<f64, N, NQ>,
     velocities: &[f64; NV],
 ) -> (f64, f64) {
-    let m = surefoot::dynamics::mass_matrix(&TREE, joint_poses);
+    let m = surefoot::dynamics::mass_matrix(tree, joint_poses);
     let kinetic = m
         .iter()
         .zip(velocities)
@@ -21,7 +21,7 @@ pub(super) fn energies(
     let potential = poses
         .iter()
         .enumerate()
-        .map(|(k, pose)| -TREE.body_mass(k).unwrap_or(0.0) * TREE.gravity().dot(&pose.position))
+        .map(|(k, pose)| -tree.body_mass(k).unwrap_or(0.0) * tree.gravity().dot(&pose.position))
         .sum();
     (kinetic, potential)
 }

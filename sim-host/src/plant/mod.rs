@@ -1,19 +1,20 @@
 //! Plants: robots that move under torques.
 
-mod biped_model;
-mod biped_system;
 mod configuration;
 mod energies;
+mod explicit_state;
 mod joint_stops;
 mod on_floor;
+mod robot_model;
+mod robot_system;
 mod struck;
 mod thrown_block;
 mod variational;
 mod welded;
 
-pub use biped_model::{BipedModel, SMALL_BODIES};
 pub use configuration::retract;
 pub use on_floor::OnFloor;
+pub use robot_model::RobotModel;
 pub use struck::Struck;
 pub use thrown_block::{BlockSample, ThrownBlock};
 pub use variational::{Additions, Variational};
@@ -25,34 +26,57 @@ use crate::multibody::{Checkpoint, SystemError};
 use surefoot::dynamics::DynamicsFault;
 use surefoot::spatial::{Pose, Wrench};
 
-/// Coordinates of the biped.
-pub const NQ: usize = 19;
-/// Velocities of the biped.
-pub const NV: usize = 18;
-
-/// State of a biped plant.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// State of a plant, of as many joints as its robot has.
+#[derive(Debug, Default, PartialEq)]
 pub struct PlantState {
-    /// Position and quaternion of the central body, joint angles.
-    pub positions: [f64; NQ],
-    /// Body twist of the central body, joint rates.
-    pub velocities: [f64; NV],
+    /// Position (m) and quaternion (scalar first) of the central body, joint angles (rad).
+    pub positions: Vec<f64>,
+    /// Body twist of the central body (m/s, rad/s), joint rates (rad/s).
+    pub velocities: Vec<f64>,
 }
 
+impl PlantState {
+    /// At rest at the origin, upright, with so many joints at 0.
+    pub fn home(joints: usize) -> Self {
+        let mut positions = vec![0.0; 7 + joints];
+        positions[3] = 1.0;
+        Self { positions, velocities: vec![0.0; 6 + joints] }
+    }
+
+    /// How many joints it has.
+    pub fn joints(&self) -> usize {
+        self.velocities.len().saturating_sub(6)
+    }
+}
+
+impl Clone for PlantState {
+    fn clone(&self) -> Self {
+        Self { positions: self.positions.clone(), velocities: self.velocities.clone() }
+    }
+
+    /// Without an allocation where both have as many joints.
+    fn clone_from(&mut self, source: &Self) {
+        self.positions.clone_from(&source.positions);
+        self.velocities.clone_from(&source.velocities);
+    }
+}
+
+/// Something of each contact point, by foot.
+pub type PerPoint<T> = Vec<Vec<T>>;
+
 /// What a plant shows besides its state.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Observation {
     /// Kinetic energy, J.
     pub kinetic_energy: f64,
     /// Potential energy of gravity, floor at 0, and of the floor's and stops' springs, J.
     pub potential_energy: f64,
-    /// Vertical force of the ground on the left and right foot, N.
-    pub foot_forces: [f64; 2],
-    /// Contact states by foot and corner (heel −y, heel +y, toe −y, toe +y); `None` where the plant
-    /// has no contact points.
-    pub contacts: Option<[[ContactState; 4]; 2]>,
-    /// Forces of the floor on the corners, N, world frame; as `contacts`.
-    pub corner_forces: Option<[[[f64; 3]; 4]; 2]>,
+    /// Vertical force of the ground on each foot, N.
+    pub foot_forces: Vec<f64>,
+    /// Contact states by foot and point, in the robot's order; `None` where the plant has no contact points.
+    pub contacts: Option<PerPoint<ContactState>>,
+    /// Forces of the floor on the points, N, world frame; as `contacts`.
+    pub corner_forces: Option<PerPoint<[f64; 3]>>,
     /// The block that is thrown at the robot; `None` where there is none.
     pub block: Option<BlockSample>,
     /// Largest violation of a constraint, m or rad; zero where there is none.
@@ -94,29 +118,45 @@ pub enum StepFailure {
 /// them.
 const DIVERGED: f64 = 1e4;
 
-/// A biped that moves under joint torques.
+/// A legged robot that moves under joint torques.
 pub trait Plant {
-    /// The present state.
+    /// Writes the present state; without an allocation into one of this plant.
     ///
     /// # Errors
     /// A [`StepFailure`] where momenta belong to no velocities.
-    fn state(&mut self) -> Result<PlantState, StepFailure>;
+    fn read_state(&mut self, state: &mut PlantState) -> Result<(), StepFailure>;
 
-    /// Advances by one step of `step_s` seconds under torques (N·m, left leg then right, hip to
-    /// foot), and a load on the central body (force and moment about its centre of mass, world axes), if
-    /// there is one.
+    /// The present state.
+    ///
+    /// # Errors
+    /// As for [`Self::read_state`].
+    fn state(&mut self) -> Result<PlantState, StepFailure> {
+        let mut state = PlantState::default();
+        self.read_state(&mut state)?;
+        Ok(state)
+    }
+
+    /// Advances by one step of `step_s` seconds under torques (N·m, one a joint in the robot's order), and a load on
+    /// the central body (force and moment about its centre of mass, world axes), if there is one.
     ///
     /// # Errors
     /// A [`StepFailure`]; the state is then that before the step.
     fn step(
         &mut self,
         step_s: f64,
-        torques: &[f64; 12],
+        torques: &[f64],
         load: Option<Wrench<f64>>,
     ) -> Result<(), StepFailure>;
 
-    /// Contact states after the last step, by foot and corner; `None` where the plant has none.
-    fn contacts(&self) -> Option<[[ContactState; 4]; 2]>;
+    /// Writes the contact states after the last step, by foot and point, and tells whether the plant has any; without
+    /// an allocation into those of this plant.
+    fn read_contacts(&self, contacts: &mut PerPoint<ContactState>) -> bool;
+
+    /// Contact states after the last step, by foot and point; `None` where the plant has none.
+    fn contacts(&self) -> Option<PerPoint<ContactState>> {
+        let mut contacts = PerPoint::new();
+        self.read_contacts(&mut contacts).then_some(contacts)
+    }
 
     /// Whether a thrown block touched the central body in the last step.
     fn is_struck(&self) -> bool {
@@ -134,9 +174,7 @@ pub trait Plant {
     fn step_limit(&self) -> Option<f64>;
 
     /// What a step solves for.
-    fn unknowns(&self) -> usize {
-        NV
-    }
+    fn unknowns(&self) -> usize;
 
     /// What the solver of implicit steps has done; `None` for plants without one.
     fn progress(&self) -> Option<&Progress> {
@@ -158,11 +196,16 @@ pub trait Plant {
     }
 }
 
-/// Wrench array of the tree's velocities: torques on the joints, none on the central body.
-fn generalized(torques: &[f64; 12]) -> [f64; NV] {
-    let mut all = [0.0; NV];
-    all[6..].copy_from_slice(torques);
-    all
+/// Contact states by foot into those that have been read before.
+fn fill_contacts(
+    feet: impl ExactSizeIterator<Item: Iterator<Item = ContactState>>,
+    contacts: &mut PerPoint<ContactState>,
+) {
+    contacts.resize_with(feet.len(), Vec::new);
+    for (own, states) in contacts.iter_mut().zip(feet) {
+        own.clear();
+        own.extend(states);
+    }
 }
 
 /// A load on the central body, in its frame.
@@ -171,7 +214,7 @@ fn in_body(load: &Wrench<f64>, pose: &Pose<f64>) -> Wrench<f64> {
     Wrench { force: turn(&load.force), torque: turn(&load.torque) }
 }
 
-fn check_velocities(velocities: &[f64; NV]) -> Result<(), StepFailure> {
+fn check_velocities(velocities: &[f64]) -> Result<(), StepFailure> {
     match velocities.iter().position(|v| !(v.abs() <= DIVERGED)) {
         Some(index) => Err(StepFailure::Diverged { index, value: velocities[index] }),
         None => Ok(()),

@@ -2,9 +2,11 @@
 //! forces at the corners of the soles. It is what most simulators do, kept to compare with.
 
 use super::energies::energies;
+use super::explicit_state::{ExplicitState, generalized};
 use super::joint_stops::{motors_and_stops, stop_energy};
 use super::{
-    Observation, Plant, PlantState, StepFailure, check_velocities, generalized, in_body, retract,
+    Observation, PerPoint, Plant, PlantState, StepFailure, check_velocities, fill_contacts,
+    in_body, retract,
 };
 use crate::contact::{ContactPoint, ContactState, Floor, PointForce};
 use crate::multibody::Stops;
@@ -13,14 +15,17 @@ use surefoot::dynamics::{body_poses, body_velocities, forward_dynamics, joint_po
 use surefoot::model::robots::biped::{FEET, SoleOutline, TREE};
 use surefoot::spatial::{Pose, Twist, Wrench};
 
+/// Coordinates and velocities of the robot.
+const NQ: usize = 19;
+const NV: usize = 18;
 /// Corners of a sole.
 const CORNERS: usize = 4;
 
 /// The biped on a floor.
 #[derive(Clone, Debug)]
 pub struct OnFloor {
-    state: PlantState,
-    stops: Option<[Stops; 12]>,
+    state: ExplicitState<NQ, NV>,
+    stops: Option<Vec<Stops>>,
     floor: Floor,
     /// In the feet's body frames, m.
     corners: [[Vector3<f64>; CORNERS]; 2],
@@ -38,10 +43,10 @@ struct Touch {
 impl OnFloor {
     /// A biped with these soles. Each foot is the mirror of the other, so that one outline serves
     /// both.
-    pub fn new(state: PlantState, floor: Floor, outline: &SoleOutline) -> Self {
+    pub fn new(state: &PlantState, floor: Floor, outline: &SoleOutline) -> Self {
         let corners = outline.corners();
         Self {
-            state,
+            state: ExplicitState::of(state),
             stops: None,
             floor,
             corners: [corners, corners],
@@ -50,7 +55,7 @@ impl OnFloor {
     }
 
     /// With stops in the joints, left leg then right, hip to foot.
-    pub fn with_stops(self, stops: Option<[Stops; 12]>) -> Self {
+    pub fn with_stops(self, stops: Option<Vec<Stops>>) -> Self {
         Self { stops, ..self }
     }
 
@@ -80,17 +85,18 @@ impl OnFloor {
 }
 
 impl Plant for OnFloor {
-    fn state(&mut self) -> Result<PlantState, StepFailure> {
-        Ok(self.state)
+    fn read_state(&mut self, state: &mut PlantState) -> Result<(), StepFailure> {
+        self.state.read(state);
+        Ok(())
     }
 
     fn step(
         &mut self,
         step_s: f64,
-        torques: &[f64; 12],
+        torques: &[f64],
         load: Option<Wrench<f64>>,
     ) -> Result<(), StepFailure> {
-        let PlantState { positions, velocities } = self.state;
+        let ExplicitState { positions, velocities } = self.state;
         let relative = joint_poses(&TREE, &positions)?;
         let poses = body_poses(&TREE, &relative);
         let mut touch = self.touch(&poses, &body_velocities(&TREE, &relative, &velocities));
@@ -101,7 +107,7 @@ impl Plant for OnFloor {
             &TREE,
             &relative,
             &velocities,
-            &generalized(&motors_and_stops(torques, self.stops.as_ref(), &positions)),
+            &generalized(&motors_and_stops(torques, self.stops.as_deref(), &positions)),
             Some(&touch.wrenches),
         )?;
         let mut next = velocities;
@@ -109,29 +115,38 @@ impl Plant for OnFloor {
             *v += step_s * a;
         }
         check_velocities(&next)?;
-        self.state = PlantState { positions: retract(&positions, &next, step_s), velocities: next };
+        self.state =
+            ExplicitState { positions: retract(&positions, &next, step_s), velocities: next };
         self.points = touch.points;
         Ok(())
     }
 
-    fn contacts(&self) -> Option<[[ContactState; CORNERS]; 2]> {
-        Some(self.points.map(|foot| foot.map(|point| point.state)))
+    fn read_contacts(&self, contacts: &mut PerPoint<ContactState>) -> bool {
+        fill_contacts(
+            self.points.iter().map(|foot| foot.iter().map(|point| point.state)),
+            contacts,
+        );
+        true
+    }
+
+    fn unknowns(&self) -> usize {
+        NV
     }
 
     fn observe(&mut self) -> Result<Observation, StepFailure> {
-        let PlantState { positions, velocities } = &self.state;
+        let ExplicitState { positions, velocities } = &self.state;
         let relative = joint_poses(&TREE, positions)?;
         let poses = body_poses(&TREE, &relative);
         let touch = self.touch(&poses, &body_velocities(&TREE, &relative, velocities));
-        let (kinetic_energy, potential) = energies(&poses, &relative, velocities);
+        let (kinetic_energy, potential) = energies(&TREE, &poses, &relative, velocities);
         Ok(Observation {
             kinetic_energy,
             potential_energy: potential
                 + touch.spring_energy
-                + stop_energy(self.stops.as_ref(), positions),
-            foot_forces: touch.corners.map(|foot| foot.iter().map(|force| force[2]).sum()),
+                + stop_energy(self.stops.as_deref(), positions),
+            foot_forces: touch.corners.map(|foot| foot.iter().map(|force| force[2]).sum()).to_vec(),
             contacts: self.contacts(),
-            corner_forces: Some(touch.corners),
+            corner_forces: Some(touch.corners.map(|foot| foot.to_vec()).to_vec()),
             block: None,
             constraint: 0.0,
         })

@@ -2,7 +2,7 @@
 //! the central body at the step's beginning.
 
 use super::thrown_block::{BlockSample, ThrownBlock};
-use super::{DIVERGED, Observation, Plant, PlantState, StepFailure};
+use super::{DIVERGED, Observation, PerPoint, Plant, PlantState, StepFailure};
 use crate::contact::{BoxPoint, ContactPoint, ContactState, Floor};
 use crate::multibody::{BOX_POINTS, CORNERS};
 use nalgebra::{Matrix3, Vector3};
@@ -12,6 +12,8 @@ use surefoot::spatial::{Quaternion, Wrench};
 /// A plant, and a block that is thrown at its central body.
 pub struct Struck {
     robot: Box<dyn Plant>,
+    /// The robot's, when it was read last.
+    state: PlantState,
     block: ThrownBlock,
     floor: Option<Floor>,
     points: [Vector3<f64>; BOX_POINTS],
@@ -40,6 +42,7 @@ impl Struck {
     pub fn new(robot: Box<dyn Plant>, block: ThrownBlock, floor: Option<Floor>) -> Self {
         Self {
             robot,
+            state: PlantState::default(),
             block,
             floor,
             strikes: [BoxPoint::default(); BOX_POINTS],
@@ -53,7 +56,8 @@ impl Struck {
     }
 
     fn forces(&mut self) -> Result<Forces, StepFailure> {
-        let PlantState { positions: p, velocities: v } = self.robot.state()?;
+        self.robot.read_state(&mut self.state)?;
+        let PlantState { positions: p, velocities: v } = &self.state;
         let on = Quaternion::from_array([p[3], p[4], p[5], p[6]]).to_matrix();
         let center = Vector3::new(p[0], p[1], p[2]);
         let linear = on * Vector3::new(v[0], v[1], v[2]);
@@ -109,14 +113,14 @@ impl Struck {
 }
 
 impl Plant for Struck {
-    fn state(&mut self) -> Result<PlantState, StepFailure> {
-        self.robot.state()
+    fn read_state(&mut self, state: &mut PlantState) -> Result<(), StepFailure> {
+        self.robot.read_state(state)
     }
 
     fn step(
         &mut self,
         step_s: f64,
-        torques: &[f64; 12],
+        torques: &[f64],
         load: Option<Wrench<f64>>,
     ) -> Result<(), StepFailure> {
         let forces = self.forces()?;
@@ -144,8 +148,12 @@ impl Plant for Struck {
         Ok(())
     }
 
-    fn contacts(&self) -> Option<[[ContactState; 4]; 2]> {
-        self.robot.contacts()
+    fn read_contacts(&self, contacts: &mut PerPoint<ContactState>) -> bool {
+        self.robot.read_contacts(contacts)
+    }
+
+    fn unknowns(&self) -> usize {
+        self.robot.unknowns()
     }
 
     fn is_struck(&self) -> bool {

@@ -1,40 +1,40 @@
-//! The biped on the symplectic simulator of chapter 5, with all its bodies or lumped: the default plant.
+//! A legged robot on the symplectic simulator of chapter 5, with all its bodies or lumped: the default plant.
 
-use super::biped_model::BipedModel;
-use super::biped_system::{BipedSystem, Foot, Motors};
 use super::joint_stops::with_stops;
-use super::{BlockSample, NQ, NV, Observation, Plant, PlantState, StepFailure, ThrownBlock};
+use super::robot_model::RobotModel;
+use super::robot_system::{Foot, Motors, RobotSystem};
+use super::{
+    BlockSample, Observation, PerPoint, Plant, PlantState, StepFailure, ThrownBlock, fill_contacts,
+};
 use crate::contact::{ContactState, Floor, Switching};
 use crate::integrators::Progress;
 use crate::multibody::{BodyState, Checkpoint, Frame, Seat, Simulation, Site, Stops, SystemError};
+use crate::robot::Robot;
 use nalgebra::Vector3;
-use surefoot::model::robots::biped::SoleOutline;
 use surefoot::spatial::{Quaternion, Wrench};
 
-/// Corners of a sole.
-const CORNERS: usize = 4;
-
-/// Columns of the robot and a block, at most.
-const MOST_COLUMNS: usize = NV + 6;
-
 /// What a scene makes of the robot, and adds to it; nothing unless said, and then nothing of it is computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Additions {
     /// Which bodies the robot has.
-    pub model: BipedModel,
+    pub model: RobotModel,
     /// Ends of the joints' ways; they need the full model's hinges.
-    pub stops: Option<[Stops; 12]>,
+    pub stops: Option<Vec<Stops>>,
     /// A block that is thrown at it.
     pub block: Option<ThrownBlock>,
 }
 
-/// The biped on a floor, or welded to it. Its step is that of its start.
+/// A robot on a floor, or welded to it. Its step is that of its start.
 #[derive(Clone, Debug)]
 pub struct Variational {
     simulation: Simulation,
     motors: Vec<Motors>,
-    feet: [Foot; 2],
-    /// Link of body 1 of §4.1, and its frame in it.
+    feet: Vec<Foot>,
+    /// How many contact points each foot has.
+    points: Vec<usize>,
+    /// Rates of all columns, when they were read last.
+    rates: Vec<f64>,
+    /// Link of the central body, and its frame in it.
     central: (usize, Frame),
     still_energy: f64,
     is_on_floor: bool,
@@ -43,30 +43,30 @@ pub struct Variational {
 }
 
 impl Variational {
-    /// On a floor, with steps of `h` seconds, and stops in the joints, left leg then right.
+    /// On a floor, with steps of `h` seconds; its feet have the robot's points.
     ///
     /// # Errors
     /// [`StepFailure::Dynamics`] for no configuration, [`StepFailure::System`] for a step or a floor that
     /// cannot be.
     pub fn on_floor(
+        robot: &Robot,
         state: &PlantState,
         h: f64,
         floor: Floor,
-        outline: &SoleOutline,
         additions: &Additions,
     ) -> Result<Self, StepFailure> {
-        let mut biped = biped(state, additions)?;
-        let corners = outline.corners();
-        let of_feet = biped.feet.into_iter().flat_map(|foot| {
+        let mut made = system(robot, state, additions)?;
+        let of_feet = made.feet.iter().zip(&robot.feet).flat_map(|(foot, of)| {
             let Foot::Free(link, frame) = foot else { return Vec::new() };
-            corners.map(|corner| Site { link, position: frame.point(corner).into() }).to_vec()
+            let site = |at| Site { link: *link, position: frame.point(at).into() };
+            of.points.iter().map(|point| site(point.at)).collect()
         });
-        let block = biped.system.links().len() - 1;
+        let block = made.system.links().len() - 1;
         let of_block = additions.block.iter().flat_map(ThrownBlock::corners);
         let sites =
             of_feet.chain(of_block.map(|position| Site { link: block, position })).collect();
-        biped.system = biped.system.on_floor(floor, Switching::WithinTheStep, sites)?;
-        Self::new(h, biped, additions)
+        made.system = made.system.on_floor(floor, Switching::WithinTheStep, sites)?;
+        Self::new(h, made, robot.points_of_feet(), additions)
     }
 
     /// With both feet held where they start: both legs hang from the world, and one joint closes the loop. A block
@@ -74,12 +74,22 @@ impl Variational {
     ///
     /// # Errors
     /// As for [`Self::on_floor`].
-    pub fn welded(state: &PlantState, h: f64, additions: &Additions) -> Result<Self, StepFailure> {
-        Self::new(h, biped(state, additions)?.on_still_feet()?, additions)
+    pub fn welded(
+        robot: &Robot,
+        state: &PlantState,
+        h: f64,
+        additions: &Additions,
+    ) -> Result<Self, StepFailure> {
+        Self::new(h, system(robot, state, additions)?.on_still_feet()?, Vec::new(), additions)
     }
 
-    fn new(h: f64, biped: BipedSystem, additions: &Additions) -> Result<Self, StepFailure> {
-        let BipedSystem { system, states, rates, motors, feet, central, still_energy } = biped;
+    fn new(
+        h: f64,
+        made: RobotSystem,
+        points: Vec<usize>,
+        additions: &Additions,
+    ) -> Result<Self, StepFailure> {
+        let RobotSystem { system, states, rates, motors, feet, central, still_energy } = made;
         let is_on_floor = system.ground().is_some();
         let block = additions.block.map(|_| states.len() - 1);
         let floats = system.links()[central.0].joint.constraints() == 0;
@@ -87,7 +97,18 @@ impl Variational {
         if !floats {
             simulation = simulation.watching(central.0)?;
         }
-        Ok(Self { simulation, motors, feet, central, still_energy, is_on_floor, block })
+        let rates = Vec::new();
+        Ok(Self {
+            simulation,
+            motors,
+            feet,
+            points,
+            rates,
+            central,
+            still_energy,
+            is_on_floor,
+            block,
+        })
     }
 
     /// The simulation.
@@ -117,9 +138,10 @@ impl Variational {
     }
 
     /// Vertical forces of the ground on the feet in the last step, N: the impulse at its beginning over its length.
-    fn vertical(&self) -> [f64; 2] {
+    fn vertical(&self) -> Vec<f64> {
         if let Some(feet) = self.corner_forces() {
-            return feet.map(|corners| corners.iter().map(|force| force[2]).sum());
+            let of_foot = |points: &Vec<[f64; 3]>| points.iter().map(|force| force[2]).sum();
+            return feet.iter().map(of_foot).collect();
         }
         let progress = self.simulation.progress();
         // A node of the discrete trajectory bears half the weight of the step before, and half that of the next.
@@ -128,38 +150,55 @@ impl Variational {
             1 => 0.5,
             _ => 1.0,
         };
-        self.feet.map(|foot| match foot {
+        let of_foot = |foot: &Foot| match foot {
             Foot::Still(link, weight) => {
-                self.simulation.world_impulse(link)[2] / progress.h + share * weight
+                self.simulation.world_impulse(*link)[2] / progress.h + share * weight
             }
             // Of a weld's constraints the third is the foot's height.
             Foot::Welded => self.simulation.loop_impulses()[2] / progress.h,
             Foot::Free(..) => 0.0,
-        })
+        };
+        self.feet.iter().map(of_foot).collect()
     }
 
-    /// Forces of the floor on the corners in the last step, N.
-    fn corner_forces(&self) -> Option<[[[f64; 3]; CORNERS]; 2]> {
+    /// Forces of the floor on the points in the last step, N.
+    fn corner_forces(&self) -> Option<PerPoint<[f64; 3]>> {
         let forces = self.simulation.contact_forces();
-        let of = |foot: usize| std::array::from_fn(|corner| forces[CORNERS * foot + corner]);
-        self.is_on_floor.then(|| [of(0), of(1)])
+        self.is_on_floor.then(|| by_foot(forces, &self.points).map(<[_]>::to_vec).collect())
     }
 }
 
+/// What is of all feet's points, by foot; what comes after is of other bodies.
+fn by_foot<'a, T>(
+    all: &'a [T],
+    points: &'a [usize],
+) -> impl ExactSizeIterator<Item = &'a [T]> + use<'a, T> {
+    let mut rest = all;
+    points.iter().map(move |count| {
+        let own;
+        (own, rest) = rest.split_at(*count);
+        own
+    })
+}
+
 /// The robot with stops, and with a block as the last link.
-fn biped(state: &PlantState, additions: &Additions) -> Result<BipedSystem, StepFailure> {
-    let mut biped = BipedSystem::new(additions.model, state)?;
-    if additions.stops.is_some() && additions.model != BipedModel::Full {
+fn system(
+    robot: &Robot,
+    state: &PlantState,
+    additions: &Additions,
+) -> Result<RobotSystem, StepFailure> {
+    let mut made = RobotSystem::new(robot, additions.model, state)?;
+    if additions.stops.is_some() && additions.model != RobotModel::Full {
         let what = "the full model, whose hinges can have stops,";
         return Err(SystemError::Unsupported { link: 1, what }.into());
     }
-    biped.system = with_stops(biped.system, additions.stops.as_ref())?;
+    made.system = with_stops(made.system, additions.stops.as_deref())?;
     if let Some(block) = &additions.block {
-        let link = biped.system.links().len();
-        biped = biped.with_link(block.link(), block.start())?;
-        biped.system = biped.system.with_striker(block.striker(link))?;
+        let link = made.system.links().len();
+        made = made.with_link(block.link(), block.start())?;
+        made.system = made.system.with_striker(block.striker(link))?;
     }
-    Ok(biped)
+    Ok(made)
 }
 
 fn orientation(state: &BodyState) -> Quaternion<f64> {
@@ -175,8 +214,11 @@ fn in_order(mut all: [f64; 3], count: usize, is_reversed: bool) -> [f64; 3] {
 }
 
 impl Plant for Variational {
-    fn state(&mut self) -> Result<PlantState, StepFailure> {
-        let (mut positions, mut velocities) = ([0.0; NQ], [0.0; NV]);
+    fn read_state(&mut self, state: &mut PlantState) -> Result<(), StepFailure> {
+        let joints: usize = self.motors.iter().map(|motors| motors.count).sum();
+        let PlantState { positions, velocities } = state;
+        positions.resize(7 + joints, 0.0);
+        velocities.resize(6 + joints, 0.0);
         let (link, central) = self.central;
         let body = self.simulation.state(link);
         let q = orientation(&body);
@@ -190,14 +232,13 @@ impl Plant for Variational {
         velocities[3..6].copy_from_slice(to_body.rotate(omega).as_slice());
         positions[..3].copy_from_slice(at.as_slice());
         positions[3..7].copy_from_slice(&turned.to_array());
-        let mut rates = [0.0; MOST_COLUMNS];
-        let observed = self.simulation.observed_rates()?;
-        rates.iter_mut().zip(observed).for_each(|(rate, observed)| *rate = *observed);
+        self.rates.clear();
+        self.rates.extend_from_slice(self.simulation.observed_rates()?);
         let mut next = 0;
         for Motors { seat, count } in &self.motors {
             let (angles, rates) = match *seat {
                 Seat::Tree { link, is_reversed } => {
-                    let own = &rates[self.simulation.columns(link)];
+                    let own = &self.rates[self.simulation.columns(link)];
                     let own = std::array::from_fn(|i| own.get(i).copied().unwrap_or(0.0));
                     let told = |all| in_order(all, *count, is_reversed);
                     (told(self.simulation.angles(link)), told(own))
@@ -211,14 +252,14 @@ impl Plant for Variational {
             velocities[6 + next..][..*count].copy_from_slice(&rates[..*count]);
             next += count;
         }
-        Ok(PlantState { positions, velocities })
+        Ok(())
     }
 
     /// Steps are of the length that the plant was made with; `step_s` must be that.
     fn step(
         &mut self,
         step_s: f64,
-        torques: &[f64; 12],
+        torques: &[f64],
         load: Option<Wrench<f64>>,
     ) -> Result<(), StepFailure> {
         debug_assert_eq!(step_s, self.simulation.progress().h);
@@ -244,13 +285,12 @@ impl Plant for Variational {
         Ok(self.simulation.step()?)
     }
 
-    fn contacts(&self) -> Option<[[ContactState; CORNERS]; 2]> {
-        if !self.is_on_floor {
-            return None;
+    fn read_contacts(&self, contacts: &mut PerPoint<ContactState>) -> bool {
+        if self.is_on_floor {
+            let feet = by_foot(self.simulation.contacts(), &self.points);
+            fill_contacts(feet.map(|points| points.iter().map(|point| point.state)), contacts);
         }
-        let memories = self.simulation.contacts();
-        let state = |foot: usize, corner: usize| memories[CORNERS * foot + corner].state;
-        Some(std::array::from_fn(|foot| std::array::from_fn(|corner| state(foot, corner))))
+        self.is_on_floor
     }
 
     fn is_struck(&self) -> bool {

@@ -9,10 +9,10 @@
 //! positive definite and are factored by Cholesky.
 
 use super::energies::energies;
+use super::explicit_state::{ExplicitState, generalized};
 use super::joint_stops::{motors_and_stops, stop_energy};
 use super::{
-    NV, Observation, Plant, PlantState, StepFailure, check_velocities, generalized, in_body,
-    retract,
+    Observation, PerPoint, Plant, PlantState, StepFailure, check_velocities, in_body, retract,
 };
 use crate::contact::ContactState;
 use crate::multibody::Stops;
@@ -23,14 +23,17 @@ use surefoot::dynamics::{
 use surefoot::model::robots::biped::{FEET, TREE};
 use surefoot::spatial::{Pose, Wrench};
 
+/// Coordinates and velocities of the robot.
+const NQ: usize = 19;
+const NV: usize = 18;
 /// Constraints of two welded feet.
 const WELDS: usize = 12;
 
 /// The biped with welded feet.
 #[derive(Clone, Debug)]
 pub struct Welded {
-    state: PlantState,
-    stops: Option<[Stops; 12]>,
+    state: ExplicitState<NQ, NV>,
+    stops: Option<Vec<Stops>>,
     /// Where the feet were welded, world from body.
     welds: [Pose<f64>; 2],
     /// Vertical forces on the feet in the last step, N.
@@ -42,29 +45,31 @@ impl Welded {
     ///
     /// # Errors
     /// If that is no configuration.
-    pub fn new(state: PlantState) -> Result<Self, DynamicsFault> {
+    pub fn new(state: &PlantState) -> Result<Self, DynamicsFault> {
+        let state = ExplicitState::of(state);
         let poses = body_poses(&TREE, &joint_poses(&TREE, &state.positions)?);
         Ok(Self { state, stops: None, welds: FEET.map(|foot| poses[foot]), vertical: [0.0; 2] })
     }
 
     /// With stops in the joints, left leg then right, hip to foot.
-    pub fn with_stops(self, stops: Option<[Stops; 12]>) -> Self {
+    pub fn with_stops(self, stops: Option<Vec<Stops>>) -> Self {
         Self { stops, ..self }
     }
 }
 
 impl Plant for Welded {
-    fn state(&mut self) -> Result<PlantState, StepFailure> {
-        Ok(self.state)
+    fn read_state(&mut self, state: &mut PlantState) -> Result<(), StepFailure> {
+        self.state.read(state);
+        Ok(())
     }
 
     fn step(
         &mut self,
         step_s: f64,
-        torques: &[f64; 12],
+        torques: &[f64],
         load: Option<Wrench<f64>>,
     ) -> Result<(), StepFailure> {
-        let PlantState { positions, velocities } = self.state;
+        let ExplicitState { positions, velocities } = self.state;
         let relative = joint_poses(&TREE, &positions)?;
         let mut jacobian = SMatrix::<f64, WELDS, NV>::zeros();
         for column in 0..NV {
@@ -82,9 +87,11 @@ impl Plant for Welded {
             .ok_or(StepFailure::Dynamics(DynamicsFault::SingularInertia { joint: 0 }))?;
         let beta = SVector::from(velocities);
         let poses = body_poses(&TREE, &relative);
-        let mut force =
-            SVector::from(generalized(&motors_and_stops(torques, self.stops.as_ref(), &positions)))
-                - SVector::from(bias_forces(&TREE, &relative, &velocities, None));
+        let mut force = SVector::from(generalized(&motors_and_stops(
+            torques,
+            self.stops.as_deref(),
+            &positions,
+        ))) - SVector::from(bias_forces(&TREE, &relative, &velocities, None));
         if let Some(load) = load {
             let mut on_body = force.fixed_rows_mut::<6>(0);
             on_body += SVector::from(in_body(&load, &poses[0]).to_array());
@@ -103,19 +110,20 @@ impl Plant for Welded {
             let on_foot = lambda.fixed_rows::<3>(6 * foot);
             self.vertical[foot] = (poses[body].rotation * on_foot).z;
         }
-        self.state = PlantState { positions: retract(&positions, &next, step_s), velocities: next };
+        self.state =
+            ExplicitState { positions: retract(&positions, &next, step_s), velocities: next };
         Ok(())
     }
 
-    fn contacts(&self) -> Option<[[ContactState; 4]; 2]> {
-        None
+    fn read_contacts(&self, _: &mut PerPoint<ContactState>) -> bool {
+        false
     }
 
     fn observe(&mut self) -> Result<Observation, StepFailure> {
-        let PlantState { positions, velocities } = &self.state;
+        let ExplicitState { positions, velocities } = &self.state;
         let relative = joint_poses(&TREE, positions)?;
         let poses = body_poses(&TREE, &relative);
-        let (kinetic_energy, potential) = energies(&poses, &relative, velocities);
+        let (kinetic_energy, potential) = energies(&TREE, &poses, &relative, velocities);
         let apart = FEET.into_iter().zip(&self.welds).map(|(foot, weld)| {
             let drift = weld.inverse().compose(&poses[foot]);
             let turned = (drift.rotation - nalgebra::Matrix3::identity()).norm();
@@ -124,8 +132,8 @@ impl Plant for Welded {
         });
         Ok(Observation {
             kinetic_energy,
-            potential_energy: potential + stop_energy(self.stops.as_ref(), positions),
-            foot_forces: self.vertical,
+            potential_energy: potential + stop_energy(self.stops.as_deref(), positions),
+            foot_forces: self.vertical.to_vec(),
             contacts: None,
             corner_forces: None,
             block: None,

@@ -70,7 +70,10 @@ pub fn controller_precision(is_counted: bool) -> Result<ControllerPrecision, Sce
     let states: Vec<PlantState> = exact
         .samples
         .iter()
-        .map(|sample| PlantState { positions: sample.positions, velocities: sample.velocities })
+        .map(|sample| PlantState {
+            positions: sample.positions.clone(),
+            velocities: sample.velocities.clone(),
+        })
         .collect();
     let wanted = torques(ControllerForm::EXACT.controller(&scene).as_mut(), &states);
     let forms = ControllerForm::all();
@@ -95,7 +98,7 @@ fn counted(forms: &[ControllerForm], states: &[PlantState]) -> Result<Vec<u64>, 
     file.count(forms).map_err(|error| error.to_string())
 }
 
-fn torques(controller: &mut dyn Controller, states: &[PlantState]) -> Vec<Option<[f64; 12]>> {
+fn torques(controller: &mut dyn Controller, states: &[PlantState]) -> Vec<Option<Vec<f64>>> {
     states.iter().map(|state| Some(controller.tick(state).ok()?.torques)).collect()
 }
 
@@ -103,7 +106,7 @@ fn torque_error(
     form: ControllerForm,
     scene: &Scene,
     states: &[PlantState],
-    wanted: &[Option<[f64; 12]>],
+    wanted: &[Option<Vec<f64>>],
 ) -> TorqueError {
     let mut controller = form.controller(scene);
     let given = torques(controller.as_mut(), states);
@@ -132,20 +135,20 @@ fn torque_error(
 fn tracking(scene: &Scene) -> Vec<TrackingError> {
     // Compared at 50 Hz, which divides all rates.
     const COMPARED_HZ: f64 = 50.0;
-    let places = |rate_hz: f64| -> Option<Vec<[f64; 19]>> {
+    let places = |rate_hz: f64| -> Option<Vec<Vec<f64>>> {
         let mut scene = scene.clone();
         scene.controller.rate_hz = rate_hz;
         scene.integrator.step_s = 1.0 / FASTEST_HZ;
         let run = run(&scene, controller(&scene, Scalar::F64).as_mut(), &mut |_| {});
         let every = (rate_hz / COMPARED_HZ).round() as usize;
-        let compared = run.samples.iter().step_by(every).map(|sample| sample.positions);
+        let compared = run.samples.iter().step_by(every).map(|sample| sample.positions.clone());
         run.failure.is_none().then(|| compared.collect())
     };
     let fastest = places(FASTEST_HZ);
     let compared = DIVISORS.map(|divisor| {
         let rate_hz = FASTEST_HZ / f64::from(divisor);
         let both = places(rate_hz).zip(fastest.as_ref());
-        let root_mean_square = |apart: fn(&[f64; 19], &[f64; 19]) -> f64| {
+        let root_mean_square = |apart: fn(&[f64], &[f64]) -> f64| {
             let (own, fast) = both.as_ref()?;
             let sum: f64 = own.iter().zip(fast.iter()).map(|(a, b)| apart(a, b).powi(2)).sum();
             Some((sum / own.len() as f64).sqrt())
@@ -156,7 +159,7 @@ fn tracking(scene: &Scene) -> Vec<TrackingError> {
                 (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
             }),
             orientation_rad: root_mean_square(|a, b| {
-                let q = |p: &[f64; 19]| Quaternion::from_array([p[3], p[4], p[5], p[6]]);
+                let q = |p: &[f64]| Quaternion::from_array([p[3], p[4], p[5], p[6]]);
                 2.0 * q(a).conjugate().product(q(b)).v.norm().min(1.0).asin()
             }),
         }

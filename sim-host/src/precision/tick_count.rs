@@ -5,7 +5,7 @@ use super::controller_form::ControllerForm;
 use crate::callgrind::CountFailure;
 use crate::callgrind::instructions;
 use crate::closed_loop::Controller;
-use crate::plant::{NQ, NV, PlantState};
+use crate::plant::PlantState;
 use std::ffi::OsStr;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
@@ -65,19 +65,21 @@ impl Drop for StatesFile {
 /// # Errors
 /// Where it cannot be read, or is of another length.
 pub fn read_states(path: &Path) -> std::io::Result<Vec<PlantState>> {
-    const NUMBERS: usize = NQ + NV;
+    let home = PlantState::home(crate::robot::biped(crate::scene::Outline::A).joint_count());
+    let (coordinates, velocities) = (home.positions.len(), home.velocities.len());
+    let all = coordinates + velocities;
     let bytes = std::fs::read(path)?;
     let (numbers, odd) = bytes.as_chunks::<8>();
-    if !odd.is_empty() || numbers.len() % NUMBERS != 0 {
-        let reason = format!("not a whole number of states of {NUMBERS} numbers");
+    if !odd.is_empty() || numbers.len() % all != 0 {
+        let reason = format!("not a whole number of states of {all} numbers");
         return Err(std::io::Error::new(std::io::ErrorKind::InvalidData, reason));
     }
     let number = |k: usize| f64::from_le_bytes(numbers[k]);
     let state = |first: usize| PlantState {
-        positions: std::array::from_fn(|i| number(first + i)),
-        velocities: std::array::from_fn(|i| number(first + NQ + i)),
+        positions: (0..coordinates).map(|i| number(first + i)).collect(),
+        velocities: (0..velocities).map(|i| number(first + coordinates + i)).collect(),
     };
-    Ok((0..numbers.len()).step_by(NUMBERS).map(state).collect())
+    Ok((0..numbers.len()).step_by(all).map(state).collect())
 }
 
 #[cfg(test)]
@@ -88,9 +90,9 @@ mod tests {
     #[test]
     fn states_are_read_as_they_were_written() {
         let first = load("experiment-1").expect("built in").initial.state();
-        let mut second = first;
+        let mut second = first.clone();
         second.velocities[17] = -0.1;
-        let file = StatesFile::write(&[first, second]).expect("written");
+        let file = StatesFile::write(&[first.clone(), second.clone()]).expect("written");
         assert_eq!(read_states(&file.path).expect("read"), [first, second]);
         std::fs::write(&file.path, [0; 12]).expect("written");
         assert!(read_states(&file.path).is_err());

@@ -52,20 +52,20 @@ pub enum SavedMotion {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HardwareMemory {
-    /// Whole counts of the encoders at the last tick, left leg then right.
-    pub encoder_counts: Option<[f64; 12]>,
+    /// Whole counts of the encoders at the last tick, one a joint.
+    pub encoder_counts: Option<Vec<f64>>,
     /// Torques on their way to the motors, oldest first, one set a tick, N·m.
-    pub torques: Vec<[f64; 12]>,
+    pub torques: Vec<Vec<f64>>,
 }
 
-/// What a supervisor remembers of earlier ticks, left leg then right.
+/// What a supervisor remembers of earlier ticks, leg by leg.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[allow(missing_docs)] // Each is the field of that name of the core's `SupervisorMemory`.
 pub struct SupervisorMemory {
     pub mode: Mode,
     pub reason: Option<StopReason>,
-    pub torques: [f64; 12],
+    pub torques: Vec<f64>,
     pub before: Option<MeasuredBefore>,
     pub missed: u8,
     pub owed: u16,
@@ -77,14 +77,14 @@ pub struct SupervisorMemory {
 }
 
 /// The measurement that the next one is compared with.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[allow(missing_docs)] // Each is the field of that name of the core's `Before`.
 pub struct MeasuredBefore {
-    pub positions: [f64; 19],
-    pub velocities: [f64; 18],
+    pub positions: Vec<f64>,
+    pub velocities: Vec<f64>,
     pub velocity: [f64; 3],
-    pub unexplained: [[u8; 4]; 2],
+    pub unexplained: Vec<[u8; 4]>,
 }
 
 impl SavedRun {

@@ -6,6 +6,7 @@ use crate::chart::{ChartError, RUN_FIGURES};
 use crate::closed_loop::{Failure, Outcome, Run};
 use crate::experiments::{reading, robot_figures};
 use crate::picture::{DESIRED_FORCE_LENGTH, FORCE_LENGTH, Shown, TORQUE_LENGTH};
+use crate::robot::Robot;
 use crate::scene::{Scene, TorquesFrom};
 use askama::Template;
 
@@ -102,11 +103,11 @@ pub fn page(report: &Report<'_>) -> Result<String, PageFailure> {
         outcome: word(run.outcome),
         failure: run.failure.as_ref().map(failure_text),
         facts: tables::facts(report),
-        peaks: tables::peaks(run),
+        peaks: tables::peaks(&shown.robot, run),
         readings: runs.iter().map(|(from, _)| reading(*from)).collect(),
         printed: tables::printed(&scene.name, &runs),
         places: tables::places(&run.events),
-        figures: figures(&scene.name, run)?,
+        figures: figures(&scene.name, &shown.robot, run)?,
         begin,
         end,
         has_block: shown.block.is_some(),
@@ -127,14 +128,16 @@ fn embedded(data: &ReplayData) -> Result<String, serde_json::Error> {
 }
 
 /// The figures as they stand in a page, which needs no namespace.
-fn figures(scene: &str, run: &Run) -> Result<Vec<String>, ChartError> {
+fn figures(scene: &str, robot: &Robot, run: &Run) -> Result<Vec<String>, ChartError> {
     let figure = |svg: String| svg.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1);
     let of = |place: usize| match robot_figures::number(scene, place) {
         Some(number) => format!("{scene}, as figure {number}"),
         None => scene.to_owned(),
     };
     let charts = RUN_FIGURES.iter().enumerate();
-    charts.map(|(i, chart)| Ok(figure(chart.svg(&of(i), &run.samples, &run.events)?))).collect()
+    charts
+        .map(|(i, chart)| Ok(figure(chart.svg(&of(i), robot, &run.samples, &run.events)?)))
+        .collect()
 }
 
 fn word(outcome: Outcome) -> Word {

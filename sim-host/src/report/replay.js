@@ -68,13 +68,13 @@ function draw() {
 
 function drawContacts(poses, k) {
   replay.corners.forEach((corner, i) => {
-    const foot = Math.floor(i / 4);
-    const at = placed(poses[replay.feet[foot]], corner);
+    const all = replay.corners.length;
+    const at = placed(poses[replay.feet[i]], corner);
     if (replay.forces.length > 0 && element("show-forces").checked) {
-      const force = replay.forces.slice(3 * (8 * k + i), 3 * (8 * k + i + 1));
+      const force = replay.forces.slice(3 * (all * k + i), 3 * (all * k + i + 1));
       paintArrow(context, camera, at, scaled(force, replay.force_length), FORCE_COLOR, 2.5);
     }
-    if (replay.contacts) paintContact(context, camera, at, Number(replay.contacts[8 * k + i]));
+    if (replay.contacts) paintContact(context, camera, at, Number(replay.contacts[all * k + i]));
   });
 }
 

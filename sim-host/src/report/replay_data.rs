@@ -1,23 +1,20 @@
 //! What the page's replay plays, as JSON: numbers are rounded to what can be seen, and kept in flat lists.
 
 use crate::chart::{Mark, marks};
-use crate::picture::{
-    DESIRED_FORCE_LENGTH, FORCE_LENGTH, Shown, Solid, TORQUE_LENGTH, body_poses_at, frames,
-};
+use crate::picture::{DESIRED_FORCE_LENGTH, FORCE_LENGTH, Shown, Solid, TORQUE_LENGTH, frames};
 use crate::record::{Event, Sample};
 use nalgebra::{Rotation3, UnitQuaternion};
 use serde::Serialize;
-use surefoot::model::robots::biped::FEET;
 use surefoot::spatial::{Pose, Quaternion};
 
 /// All that the replay plays. Names are those that the page's script reads.
 #[derive(Debug, Serialize)]
 pub(super) struct ReplayData {
     bodies: Vec<Body>,
-    /// Corners of both soles in their feet's frames, m.
+    /// Points of all feet in their bodies' frames, m.
     corners: Vec<[f64; 3]>,
-    /// Which bodies are feet.
-    feet: [usize; 2],
+    /// The body of each of these points.
+    feet: Vec<usize>,
     /// The central body at the set point, world frame.
     set_point: Solid,
     block: Option<Solid>,
@@ -44,7 +41,7 @@ pub(super) struct ReplayData {
 
 #[derive(Debug, Serialize)]
 struct Body {
-    /// 0 the central body, 1 the left leg, 2 the right one.
+    /// 0 the central body, 1 the left leg, 2 the right one, and so on in turn.
     group: u8,
     #[serde(flatten)]
     solid: Solid,
@@ -57,7 +54,7 @@ impl ReplayData {
         let mut data = Self::still(shown, marks(events));
         for i in frames(samples) {
             let sample = &samples[i];
-            let Ok(poses) = body_poses_at(&sample.positions) else { break };
+            let Ok(poses) = shown.robot.tree.body_poses(&sample.positions) else { break };
             data.push(sample, &poses);
         }
         (!data.times.is_empty()).then_some(data)
@@ -65,23 +62,22 @@ impl ReplayData {
 
     /// All that does not move.
     fn still(shown: &Shown, marks: Vec<Mark>) -> Self {
-        let group = |k: usize| match k {
-            0 => 0,
-            1..=6 => 1,
-            _ => 2,
-        };
-        let bodies = shown.solids.iter().enumerate();
-        let corners = shown.corners.map(|corners| corners.map(|c| rounded_point(c.into())));
+        let robot = &shown.robot;
+        let group = |k: usize| robot.leg_of(k).map_or(0, |leg| 1 + (leg % 2) as u8);
+        let bodies = robot.shapes.iter().enumerate();
+        let feet = robot.feet.iter().filter(|_| shown.has_contacts);
+        let points = feet.flat_map(|foot| foot.points.iter().map(|point| (foot.body, point.at)));
+        let (feet, corners) = points.map(|(body, at)| (body, rounded_point(at.into()))).unzip();
         let target = &shown.set_point;
         let rotation = Quaternion::from_array(target.orientation).to_matrix();
         Self {
             bodies: bodies
                 .map(|(k, s)| Body { group: group(k), solid: rounded_solid(s) })
                 .collect(),
-            corners: corners.iter().chain(&corners).flatten().copied().collect(),
-            feet: FEET,
+            corners,
+            feet,
             set_point: rounded_solid(
-                &shown.solids[0].clone().moved(&rotation, target.position_m.into()),
+                &robot.shapes[0].clone().moved(&rotation, target.position_m.into()),
             ),
             block: shown.block.as_ref().map(rounded_solid),
             force_length: FORCE_LENGTH,
@@ -99,7 +95,7 @@ impl ReplayData {
         }
     }
 
-    fn push(&mut self, sample: &Sample, poses: &[Pose<f64>; 13]) {
+    fn push(&mut self, sample: &Sample, poses: &[Pose<f64>]) {
         self.times.push(rounded(sample.time_s, 1e4));
         for pose in poses {
             let rotation = Rotation3::from_matrix_unchecked(pose.rotation);

@@ -3,7 +3,8 @@
 use super::Report;
 use crate::closed_loop::{Peaks, Run};
 use crate::experiments::{Comparison, printed_figures, reading};
-use crate::record::{Event, JOINTS, Settling};
+use crate::record::{Event, Settling};
+use crate::robot::Robot;
 use crate::scene::{Feet, TorquesFrom};
 
 /// A line of the summary.
@@ -50,7 +51,8 @@ pub(super) fn facts(report: &Report<'_>) -> Vec<Fact> {
 fn feet(feet: &Feet) -> String {
     match feet {
         Feet::Floor { outline, floor } => {
-            format!("on a floor with friction {}, soles {outline:?}", floor.static_friction)
+            let soles = outline.map_or(String::new(), |outline| format!(", soles {outline:?}"));
+            format!("on a floor with friction {}{soles}", floor.static_friction)
         }
         Feet::Welded {} => "held where they start".to_owned(),
     }
@@ -64,7 +66,7 @@ pub(super) struct Peak {
 }
 
 /// Peaks of the desired wrench and of all joints.
-pub(super) fn peaks(run: &Run) -> Vec<Peak> {
+pub(super) fn peaks(robot: &Robot, run: &Run) -> Vec<Peak> {
     let Some(peaks) = Peaks::of(&run.samples) else { return Vec::new() };
     let row = |name: String, peak: crate::closed_loop::Peak, unit: &str| Peak {
         name,
@@ -75,8 +77,8 @@ pub(super) fn peaks(run: &Run) -> Vec<Peak> {
     for (axis, peak) in ["x", "y", "z"].iter().zip(peaks.torque) {
         rows.push(row(format!("desired torque about {axis}"), peak, "N·m"));
     }
-    for (joint, peak) in JOINTS.iter().zip(peaks.joints) {
-        rows.push(row((*joint).to_owned(), peak, "N·m"));
+    for (joint, peak) in robot.joints.iter().zip(peaks.joints) {
+        rows.push(row(joint.clone(), peak, "N·m"));
     }
     rows
 }

@@ -1,15 +1,12 @@
 //! What a scene must fulfil before it runs.
 
 use super::check_hardware::check_hardware;
+use super::check_robot::{of_file, reach};
 use super::rung::check_model;
 use super::{Distribution, Feet, Scene, SceneError, Workspace};
 use crate::integrators::Method;
 use nalgebra::Vector3;
-use surefoot::balance::{LeggedRobot, RobotState, central_body, leg_kinematics};
-use surefoot::model::robots::biped;
-use surefoot::spatial::{Quaternion, Twist};
-
-const ROBOT: LeggedRobot<f64, 2> = LeggedRobot::new(&biped::TREE);
+use surefoot::spatial::Quaternion;
 
 /// Most steps a run may have: a day of computing, and surely a slip of the pen beyond.
 const MOST_STEPS: f64 = 1e9;
@@ -17,6 +14,7 @@ const MOST_STEPS: f64 = 1e9;
 const MOST_TICKS: f64 = 1e6;
 
 pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
+    of_file(scene)?;
     numbers(scene)?;
     thrown_block(scene)?;
     timing(scene)?;
@@ -41,16 +39,20 @@ pub(super) fn wrong(
 }
 
 fn numbers(scene: &Scene) -> Result<(), SceneError> {
-    let (initial, set, controller) = (&scene.initial, &scene.set_point, &scene.controller);
-    let finite: [(&str, &[f64]); 7] = [
-        ("initial.position_m", &initial.position_m),
-        ("initial.turn_axis", &initial.turn_axis),
-        ("initial.turn_deg", &[initial.turn_deg]),
-        ("initial.left_leg_deg", &initial.left_leg_deg),
-        ("initial.right_leg_deg", &initial.right_leg_deg),
+    let (set, controller) = (&scene.set_point, &scene.controller);
+    let mut finite: Vec<(&str, &[f64])> = vec![
         ("set_point.position_m", &set.position_m),
         ("set_point.orientation", &set.orientation),
     ];
+    if let Some(initial) = scene.initial.legs() {
+        finite.extend::<[(&str, &[f64]); 5]>([
+            ("initial.position_m", &initial.position_m),
+            ("initial.turn_axis", &initial.turn_axis),
+            ("initial.turn_deg", std::slice::from_ref(&initial.turn_deg)),
+            ("initial.left_leg_deg", &initial.left_leg_deg),
+            ("initial.right_leg_deg", &initial.right_leg_deg),
+        ]);
+    }
     for (field, values) in finite {
         if !values.iter().all(|x| x.is_finite()) {
             return Err(wrong(scene, field, values, "finite numbers"));
@@ -67,7 +69,9 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
             return Err(wrong(scene, field, values, "finite gains above zero"));
         }
     }
-    if Vector3::from(initial.turn_axis).norm() < 1e-9 {
+    if let Some(initial) = scene.initial.legs()
+        && Vector3::from(initial.turn_axis).norm() < 1e-9
+    {
         return Err(wrong(scene, "initial.turn_axis", initial.turn_axis, "an axis with a length"));
     }
     let norm = Quaternion::from_array(set.orientation).norm_squared().sqrt();
@@ -96,6 +100,12 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
     }
     if controller.distribution == Distribution::Limited && matches!(scene.feet, Feet::Welded {}) {
         let expected = "\"least-norm\" for feet that are held: nothing limits them";
+        return Err(wrong(scene, "controller.distribution", "limited", expected));
+    }
+    if controller.distribution == Distribution::Limited
+        && let Err(no_sole) = scene.robot().soles()
+    {
+        let expected = format!("\"least-norm\" for a robot without flat soles: {no_sole}");
         return Err(wrong(scene, "controller.distribution", "limited", expected));
     }
     if let Feet::Floor { floor, .. } = &scene.feet
@@ -136,7 +146,8 @@ fn thrown_block(scene: &Scene) -> Result<(), SceneError> {
     let [s, x, y, z] = std::array::from_fn(|i| start.positions[3 + i]);
     let to_body = Quaternion::from_array([s, x, y, z]).conjugate();
     let thrown = block.thrown();
-    let from_body = Vector3::from(block.position_m) - Vector3::from(scene.initial.position_m);
+    let from_body =
+        Vector3::from(block.position_m) - Vector3::from_row_slice(&start.positions[..3]);
     let is_inside = thrown
         .points()
         .iter()
@@ -207,41 +218,6 @@ fn timing(scene: &Scene) -> Result<(), SceneError> {
         let expected =
             format!("a whole number of steps of {step} s between ticks (it is {steps:.3})");
         return Err(wrong(scene, "controller.rate_hz", rate, expected));
-    }
-    Ok(())
-}
-
-/// A set point that the legs reach with the feet where they start.
-fn reach(scene: &Scene) -> Result<(), SceneError> {
-    let start = scene.initial.state();
-    let [s, x, y, z] = std::array::from_fn(|i| start.positions[3 + i]);
-    let state = RobotState {
-        position: Vector3::from(scene.initial.position_m),
-        orientation: Quaternion::from_array([s, x, y, z]),
-        velocity: Twist::zero(),
-        joint_angles: [
-            scene.initial.left_leg_deg.map(f64::to_radians),
-            scene.initial.right_leg_deg.map(f64::to_radians),
-        ],
-        joint_rates: [[0.0; 6]; 2],
-    };
-    let central = central_body(&ROBOT, &state).map_err(|fault| {
-        wrong(scene, "initial", scene.initial, format!("a state to start from: {fault}"))
-    })?;
-    let orientation = Quaternion::from_array(scene.set_point.orientation);
-    let desired = Vector3::from(scene.set_point.position_m);
-    for (leg, side) in leg_kinematics(&ROBOT, &central, &state).iter().zip(["left", "right"]) {
-        let [hip, knee, ankle] = [leg.origins[0], leg.origins[3], leg.origins[5]];
-        let length = (knee - hip).norm() + (ankle - knee).norm();
-        let foot = state.position + central.rotation * ankle;
-        let distance = (desired + orientation.rotate(hip) - foot).norm();
-        if distance >= length {
-            let expected = format!(
-                "a pose that the {side} leg reaches: its hip would be {distance:.3} m from its \
-                 ankle, and the leg is {length:.3} m long"
-            );
-            return Err(wrong(scene, "set_point", scene.set_point, expected));
-        }
     }
     Ok(())
 }

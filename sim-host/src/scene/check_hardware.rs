@@ -62,7 +62,8 @@ fn joint_stops(scene: &Scene, stops: &JointStops) -> Result<(), SceneError> {
         let expected = "a finite stiffness above zero, in N·m/rad";
         return Err(wrong(scene, "acting.joint_stops.stiffness", stops.stiffness, expected));
     }
-    let initial = &scene.initial;
+    // A robot from a file has none.
+    let Some(initial) = scene.initial.legs() else { return Ok(()) };
     for (side, ends, angles) in [
         ("left", &stops.left_deg, &initial.left_leg_deg),
         ("right", &stops.right_deg, &initial.right_leg_deg),

@@ -2,8 +2,9 @@
 
 use super::builtin::BUILT_IN;
 use super::check::check;
+use super::robot_entry::resolve;
 use super::source::Source;
-use super::{Initial, MechanismScene, Scene};
+use super::{Feet, Initial, LegsStart, MechanismScene, Scene};
 use crate::plant::PlantState;
 use nalgebra::Vector3;
 use serde::de::DeserializeOwned;
@@ -120,7 +121,7 @@ pub fn open(name: &str) -> Result<AnyScene, SceneError> {
         reason: error.to_string(),
     })?;
     let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
-    parse_at(name, stem, &text)
+    parse_at(name, stem, &text, path.parent())
 }
 
 /// The same, of a robot.
@@ -139,11 +140,16 @@ pub fn load(name: &str) -> Result<Scene, SceneError> {
 /// # Errors
 /// [`SceneError::Syntax`] or [`SceneError::Value`], with the line.
 pub fn parse(name: &str, text: &str) -> Result<AnyScene, SceneError> {
-    parse_at(name, name, text)
+    parse_at(name, name, text, None)
 }
 
-/// The same of the text at a place that messages name.
-fn parse_at(place: &str, name: &str, text: &str) -> Result<AnyScene, SceneError> {
+/// The same of the text at a place that messages name; robot files are found from its folder.
+fn parse_at(
+    place: &str,
+    name: &str,
+    text: &str,
+    folder: Option<&Path>,
+) -> Result<AnyScene, SceneError> {
     let source = Source::parse(place, text)?;
     source.check_numbers()?;
     let scene = if source.has("mechanism") {
@@ -154,9 +160,23 @@ fn parse_at(place: &str, name: &str, text: &str) -> Result<AnyScene, SceneError>
     } else {
         let mut scene: Scene = deserialized(&source)?;
         name.clone_into(&mut scene.name);
-        check(&scene).map(|()| AnyScene::Robot(Box::new(scene)))
+        said(&source, &scene)?;
+        resolve(&mut scene, folder, source.has("set_point"))
+            .and_then(|()| check(&scene))
+            .map(|()| AnyScene::Robot(Box::new(scene)))
     };
     scene.map_err(|error| source.locate(error))
+}
+
+/// What only the biped's scenes must have.
+fn said(source: &Source<'_>, scene: &Scene) -> Result<(), SceneError> {
+    if scene.robot.is_none() && !source.has("set_point") {
+        return Err(source.missing("", "set_point"));
+    }
+    if scene.robot.is_none() && matches!(scene.feet, Feet::Floor { outline: None, .. }) {
+        return Err(source.missing("feet", "outline"));
+    }
+    Ok(())
 }
 
 fn deserialized<T: DeserializeOwned>(source: &Source<'_>) -> Result<T, SceneError> {
@@ -176,15 +196,42 @@ impl Scene {
 impl Initial {
     /// The robot's state at the start.
     pub fn state(&self) -> PlantState {
+        match self {
+            Self::Legs(start) => start.state(),
+            Self::Joints(start) => start.state.clone(),
+        }
+    }
+
+    /// Of the biped, leg by leg.
+    pub fn legs(&self) -> Option<&LegsStart> {
+        match self {
+            Self::Legs(start) => Some(start),
+            Self::Joints(_) => None,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn legs_mut(&mut self) -> Option<&mut LegsStart> {
+        match self {
+            Self::Legs(start) => Some(start),
+            Self::Joints(_) => None,
+        }
+    }
+}
+
+impl LegsStart {
+    /// The biped's state at the start.
+    fn state(&self) -> PlantState {
         let axis = Vector3::from(self.turn_axis).normalize();
         let q = Quaternion::from_axis_angle(axis, self.turn_deg.to_radians());
-        let mut positions = [0.0; crate::plant::NQ];
+        let angles: Vec<f64> = self.left_leg_deg.into_iter().chain(self.right_leg_deg).collect();
+        let mut state = PlantState::home(angles.len());
+        let positions = &mut state.positions;
         positions[..3].copy_from_slice(&self.position_m);
         positions[3..7].copy_from_slice(&q.to_array());
-        let angles = self.left_leg_deg.iter().chain(&self.right_leg_deg);
         for (to, degrees) in positions[7..].iter_mut().zip(angles) {
             *to = degrees.to_radians();
         }
-        PlantState { positions, velocities: [0.0; crate::plant::NV] }
+        state
     }
 }

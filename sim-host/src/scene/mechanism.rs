@@ -202,10 +202,10 @@ impl Flight {
     pub fn start(&self, h: f64) -> Result<Simulation, StepFailure> {
         let angles = self.left_leg_deg.iter().chain(&self.right_leg_deg);
         let rates = self.left_leg_rates_deg_s.iter().chain(&self.right_leg_rates_deg_s);
-        let mut positions = [0.0; crate::plant::NQ];
+        let mut positions = [0.0; 19];
         positions[..3].copy_from_slice(&self.position_m);
         positions[3..7].copy_from_slice(&self.orientation);
-        let mut velocities = [0.0; crate::plant::NV];
+        let mut velocities = [0.0; 18];
         velocities[..3].copy_from_slice(&self.velocity_m_s);
         velocities[3..6].copy_from_slice(&self.angular_velocity_rad_s);
         for (to, degrees) in positions[7..].iter_mut().zip(angles) {

@@ -6,12 +6,14 @@ mod builtin;
 mod check;
 mod check_hardware;
 mod check_mechanism;
+mod check_robot;
 mod disturbance;
 mod hardware;
 mod inertia;
 mod load;
 mod mechanism;
 mod multibody;
+mod robot_entry;
 mod rung;
 mod source;
 mod warnings;
@@ -24,12 +26,16 @@ pub use mechanism::{Flight, Link, MOST_LINKS, Mechanism, MechanismScene, MotionM
 pub use multibody::{
     BodyEntry, BuildError, JointEntry, LoopEntry, LoopJoint, Misdescribed, Multibody,
 };
+pub use robot_entry::RobotEntry;
 pub use rung::{LUMPED_DEVIATION_M, Matters, ModelChoice, Rung};
 
 use crate::contact::Floor;
 use crate::integrators::Method;
+use crate::plant::PlantState;
+use crate::robot::{SharedRobot, biped};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use surefoot::model::robots::biped::SoleOutline;
 use surefoot::spatial::Wrench;
 
@@ -44,6 +50,9 @@ pub struct Scene {
     pub description: String,
     /// Simulated time, s.
     pub duration_s: f64,
+    /// The robot, from a file; the biped of the text unless said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub robot: Option<RobotEntry>,
     /// How much of the robot is modelled; as little as what matters allows, unless said.
     #[serde(default, skip_serializing_if = "ModelChoice::is_auto")]
     pub model: ModelChoice,
@@ -54,7 +63,8 @@ pub struct Scene {
     pub integrator: Integrator,
     /// Where the robot starts, at rest.
     pub initial: Initial,
-    /// Where the controller holds it.
+    /// Where the controller holds it; a robot from a file where it starts, unless said.
+    #[serde(default = "SetPoint::unsaid")]
     pub set_point: SetPoint,
     /// The controller's settings.
     pub controller: ControllerSettings,
@@ -75,6 +85,15 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// What moves in it.
+    pub fn robot(&self) -> SharedRobot {
+        match (self.robot.as_ref().and_then(RobotEntry::robot), self.feet) {
+            (Some(robot), _) => robot,
+            (None, Feet::Floor { outline: Some(outline), .. }) => biped(outline),
+            (None, _) => biped(Outline::A),
+        }
+    }
+
     /// What all pushes do to the central body on average from one time to a later one, world frame; `None` where there
     /// is none. Each counts by the share of that time in which it acts, so that its impulse is exact.
     pub fn push(&self, from_s: f64, to_s: f64) -> Option<Wrench<f64>> {
@@ -107,10 +126,58 @@ impl Default for Integrator {
     }
 }
 
-/// The robot's start, at rest.
+/// The robot's start, at rest. In a file its kind is told by whether the scene names a robot.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Initial {
+    /// Of the biped, leg by leg.
+    Legs(LegsStart),
+    /// Of a robot from a file, by names of joints.
+    Joints(JointsStart),
+}
+
+impl Serialize for Initial {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Legs(start) => start.serialize(serializer),
+            Self::Joints(start) => start.serialize(serializer),
+        }
+    }
+}
+
+/// The start of a robot from a file: at rest, its lowest point on the floor.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct JointsStart {
+    /// Angles by names of joints; 0 unless said.
+    pub joints_deg: BTreeMap<String, f64>,
+    /// Axis about which its central body is turned.
+    pub turn_axis: [f64; 3],
+    /// Angle of that turn.
+    pub turn_deg: f64,
+    /// How far above the floor its lowest point is, m.
+    pub above_floor_m: f64,
+    /// What comes of these.
+    #[serde(skip)]
+    pub(crate) state: PlantState,
+}
+
+impl Default for JointsStart {
+    fn default() -> Self {
+        Self {
+            joints_deg: BTreeMap::new(),
+            turn_axis: [0.0, 0.0, 1.0],
+            turn_deg: 0.0,
+            above_floor_m: 0.0,
+            state: PlantState::default(),
+        }
+    }
+}
+
+/// The biped's start, at rest.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Initial {
+pub struct LegsStart {
     /// Centre of mass of the central body, m.
     pub position_m: [f64; 3],
     /// Axis about which it is turned.
@@ -131,6 +198,13 @@ pub struct SetPoint {
     pub position_m: [f64; 3],
     /// Unit quaternion, scalar first.
     pub orientation: [f64; 4],
+}
+
+impl SetPoint {
+    /// Of no number: the reader puts the start of a robot from a file in its place.
+    fn unsaid() -> Self {
+        Self { position_m: [f64::NAN; 3], orientation: [f64::NAN; 4] }
+    }
 }
 
 /// The controller's settings. Gain matrices are diagonal.
@@ -199,8 +273,9 @@ pub enum TorquesFrom {
 pub enum Feet {
     /// A floor that they can leave and slide on.
     Floor {
-        /// Outline of the soles.
-        outline: Outline,
+        /// Outline of the biped's soles; robots from files have points of their own.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        outline: Option<Outline>,
         /// The floor.
         floor: Floor,
     },

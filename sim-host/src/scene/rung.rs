@@ -3,7 +3,7 @@
 use super::check::wrong;
 use super::{Scene, SceneError};
 use crate::integrators::Method;
-use crate::plant::BipedModel;
+use crate::plant::RobotModel;
 use serde::{Deserialize, Serialize};
 
 /// Which model of the robot a scene asks for.
@@ -52,7 +52,7 @@ impl ModelChoice {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Rung {
     /// The model.
-    pub model: BipedModel,
+    pub model: RobotModel,
     /// For people.
     pub reason: String,
 }
@@ -69,12 +69,12 @@ impl Scene {
     /// The model that plays this scene: the smallest that it bears, or the one that it names.
     pub fn rung(&self) -> Rung {
         let (model, reason) = match self.model {
-            ModelChoice::Full => (BipedModel::Full, "the scene names it".to_owned()),
-            ModelChoice::Lumped => (BipedModel::Lumped, "the scene names it".to_owned()),
+            ModelChoice::Full => (RobotModel::Full, "the scene names it".to_owned()),
+            ModelChoice::Lumped => (RobotModel::Lumped, "the scene names it".to_owned()),
             ModelChoice::Auto => match self.needs_hinges() {
-                Some(need) => (BipedModel::Full, need.to_owned()),
+                Some(need) => (RobotModel::Full, need.to_owned()),
                 None if self.matters.deviation_m < LUMPED_DEVIATION_M => (
-                    BipedModel::Full,
+                    RobotModel::Full,
                     format!(
                         "{:.0e} m matter, and the lumped model is off by up to {LUMPED_DEVIATION_M:.0e} m in the \
                          built-in scenes",
@@ -83,7 +83,7 @@ impl Scene {
                 ),
                 // What was measured in the built-in scenes is not claimed of others.
                 None => (
-                    BipedModel::Lumped,
+                    RobotModel::Lumped,
                     format!(
                         "{:.0e} m matter; in the built-in scenes it is within {LUMPED_DEVIATION_M:.0e} m of the full \
                          model (chart parsimony measures others)",
@@ -97,7 +97,11 @@ impl Scene {
 
     /// What only the model with all hinges can do, if the scene asks for it.
     fn needs_hinges(&self) -> Option<&'static str> {
-        let hips = [self.initial.left_leg_deg[1], self.initial.right_leg_deg[1]];
+        // What lumping does was measured of the biped.
+        let Some(initial) = self.initial.legs() else {
+            return Some("the robot of a file has no other");
+        };
+        let hips = [initial.left_leg_deg[1], initial.right_leg_deg[1]];
         if self.integrator.name != Method::Variational {
             Some("the baseline method has no other")
         } else if self.acting.joint_stops.is_some() {

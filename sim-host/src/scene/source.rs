@@ -41,7 +41,21 @@ impl<'a> Source<'a> {
     pub fn document(&self) -> Spanned<DeTable<'a>> {
         let mut root = self.root.clone();
         tag_first(root.get_mut());
+        tag_start(&mut root);
         root
+    }
+
+    /// An error of a field that must be there; in a table, unless that has no name.
+    pub fn missing(&self, table: &str, field: &str) -> SceneError {
+        let mut line = 1;
+        each(self.root.get_ref(), "", &mut |path, _, found| {
+            if path == table {
+                line = line_of(self.text, found.span().start);
+            }
+        });
+        let dot = if table.is_empty() { "" } else { ": " };
+        let message = format!("{table}{dot}missing field `{field}`");
+        SceneError::Syntax { name: self.place.to_owned(), line, message }
     }
 
     /// Refuses numbers that are not finite, or so large that their powers are not.
@@ -152,6 +166,29 @@ fn each_below<'t, 'a>(
 /// Whether a field is this value, or in it.
 fn is_within(field: &str, path: &str) -> bool {
     field.strip_prefix(path).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+}
+
+/// The kind of a robot's start, which the scene's robot tells; a start of a robot from a file may be left out.
+fn tag_start(root: &mut Spanned<DeTable<'_>>) {
+    let whole = root.span();
+    let fields = root.get_mut();
+    let of_file = fields.contains_key("robot");
+    let kind = if of_file { "joints" } else { "legs" };
+    if fields.contains_key("mechanism") {
+        return;
+    }
+    if of_file && !fields.contains_key("initial") {
+        let nothing = Spanned::new(whole.clone(), DeValue::Table(DeTable::new()));
+        fields.insert(Spanned::new(whole, "initial".into()), nothing);
+    }
+    let Some(start) = fields.get_mut("initial") else { return };
+    let span = start.span();
+    if !matches!(start.get_ref(), DeValue::Table(_)) {
+        return;
+    }
+    let inner = std::mem::replace(start.get_mut(), DeValue::Boolean(false));
+    let key = Spanned::new(span.clone(), kind.into());
+    *start.get_mut() = DeValue::Table([(key, Spanned::new(span, inner))].into_iter().collect());
 }
 
 /// Tables of several kinds, and the key that names the kind.

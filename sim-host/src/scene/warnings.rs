@@ -4,9 +4,7 @@
 use super::inertia::rounded;
 use super::{BodyEntry, Feet, Mechanism, MechanismScene, Multibody, Scene};
 use crate::contact::Floor;
-use crate::picture::body_poses_at;
 use nalgebra::Vector3;
-use surefoot::model::robots::biped::{FEET, TREE};
 use surefoot::spatial::Quaternion;
 
 impl MechanismScene {
@@ -53,15 +51,17 @@ impl BodyEntry {
 impl Scene {
     /// What the user should know before it runs.
     pub fn warnings(&self) -> Vec<String> {
-        let Feet::Floor { outline, floor } = &self.feet else { return Vec::new() };
+        let Feet::Floor { floor, .. } = &self.feet else { return Vec::new() };
         // A start that is no configuration is the plant's to refuse.
-        let Ok(poses) = body_poses_at(&self.initial.state().positions) else { return Vec::new() };
-        let corners = outline.sole().corners();
-        let heights = FEET.into_iter().flat_map(|foot| {
-            let pose = &poses[foot];
-            corners.iter().map(|corner| pose.transform_point(*corner).z)
+        let robot = self.robot();
+        let Ok(poses) = robot.tree.body_poses(&self.initial.state().positions) else {
+            return Vec::new();
+        };
+        let heights = robot.feet.iter().flat_map(|foot| {
+            let pose = &poses[foot.body];
+            foot.points.iter().map(|point| pose.transform_point(point.at).z)
         });
-        let weight = -TREE.gravity()[2] * TREE.mass();
+        let weight = -robot.tree.gravity()[2] * robot.tree.mass();
         sunk("the soles", heights, floor, weight).into_iter().collect()
     }
 }

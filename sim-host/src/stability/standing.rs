@@ -6,10 +6,10 @@ use super::maps::{Axis, Foretold, edge, should_land, should_stand};
 use super::problem::Problem;
 use super::verdict::{FailureKind, Verdict};
 use crate::integrators::Method;
-use crate::multibody::{Simulation, StepForecast, states_of_tree, system_of_tree};
+use crate::multibody::{Simulation, StepForecast};
 use crate::plant::{OnFloor, Plant};
+use crate::robot::Start;
 use crate::scene::{Feet, Scene};
-use surefoot::model::robots::biped::TREE;
 
 /// Steps in question, s.
 const RANGE_S: [f64; 2] = [5e-5, 0.2];
@@ -73,9 +73,9 @@ fn kind(method: Method, manner: Manner) -> FailureKind {
 /// are limited by what the sampled loop asks of the ground, and by how it comes down there in such steps.
 fn forecast(scene: &Scene, least_duration_s: f64, method: Method) -> Forecast {
     let plant = match (method, &scene.feet) {
-        (Method::SemiImplicitEuler, Feet::Floor { outline, floor }) => {
-            let stops = scene.acting.joint_stops.map(|stops| stops.in_radians());
-            let plant = OnFloor::new(scene.initial.state(), *floor, &outline.sole());
+        (Method::SemiImplicitEuler, Feet::Floor { outline: Some(outline), floor }) => {
+            let stops = scene.acting.joint_stops.map(|stops| stops.in_radians().to_vec());
+            let plant = OnFloor::new(&scene.initial.state(), *floor, &outline.sole());
             (plant.with_stops(stops).step_limit(), FailureKind::Runaway)
         }
         (Method::Variational, _) => (turning(scene).turning_s, FailureKind::NoRoot),
@@ -112,12 +112,12 @@ fn forecast(scene: &Scene, least_duration_s: f64, method: Method) -> Forecast {
 fn turning(scene: &Scene) -> StepForecast {
     let mut all = StepForecast::default();
     let (run, _) = play(scene, Loop::Bare);
+    let tree = &scene.robot().tree;
     for sample in run.samples.iter().step_by(EVERY) {
-        let here = states_of_tree(&TREE, &sample.positions, &sample.velocities).ok();
-        let forecast = here.and_then(|(states, rates)| {
+        let here = tree.start(&sample.positions, &sample.velocities).ok();
+        let forecast = here.and_then(|Start { system, states, rates, .. }| {
             let h = scene.integrator.step_s;
-            let mut simulation =
-                Simulation::new(system_of_tree(&TREE).ok()?, h, &states, &rates).ok()?;
+            let mut simulation = Simulation::new(system, h, &states, &rates).ok()?;
             simulation.forecast().ok()
         });
         all = forecast.map_or(all, |forecast| all.and(forecast));

@@ -19,8 +19,8 @@ fn limits_are_charted_and_taken_up_again() {
     assert_eq!(limit["quantity"], "set-point-height");
     assert_eq!(limit["footing"], "welded");
     assert!(limit["value"].as_f64().is_some_and(|z| (1.165..1.2).contains(&z)), "{limit}");
-    // It rises so fast that its feet would have to pull: the supervisor sees it fall freely.
-    assert_eq!(limit["manner"], "tip");
+    // Its legs get straight.
+    assert_eq!(limit["manner"], "singular leg");
     let (status, second, messages) = chart(&[]);
     assert_eq!((status, &second), (Some(0), &first));
     assert!(messages.contains("2 of 2 limits taken up"), "{messages}");

@@ -138,6 +138,24 @@ fn what_goes_on_keeps_what_was() {
     assert_eq!((rows[0][0], rows[rows.len() - 1][0]), (0.3, 0.5));
 }
 
+/// A run is taken up under the controller that it was saved with: a supervisor remembers, and none does not.
+#[test]
+fn a_run_goes_on_under_its_controller() {
+    let folder = folder("controller");
+    let run = |controller: &str, more: &[&str]| {
+        let all = [&["run", "experiment-1", "--controller", controller], more].concat();
+        said(&surefoot(&folder, &all))
+    };
+    for (saver, other) in [("host", "bare"), ("bare", "host")] {
+        assert_eq!(run(saver, &["--duration", "0.1", "--save", "run.json"]).0, Some(0));
+        let (status, _, stderr) = run(other, &["--duration", "0.2", "--resume", "run.json"]);
+        assert_eq!(status, Some(2), "{stderr}");
+        assert!(stderr.contains("supervisor"), "{stderr}");
+        let on = run(saver, &["--duration", "0.2", "--resume", "run.json"]);
+        assert_eq!(on.0, Some(0), "{}", on.2);
+    }
+}
+
 /// A saved run is taken up by the same motion under any name, and by no other.
 #[test]
 fn a_saved_run_is_known_by_its_motion() {

@@ -1,6 +1,7 @@
 //! The binary as its users meet it: exit statuses, one JSON document on stdout, messages that say
 //! what, where and what was expected.
 
+mod any_robot;
 mod charts;
 mod documented;
 mod files;

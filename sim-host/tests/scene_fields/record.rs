@@ -24,11 +24,11 @@ pub fn record(scene: AnyScene) -> Record {
             let numbers = run.samples.iter().flat_map(|sample| {
                 let block = sample.block.iter().flat_map(|block| block.pose).collect::<Vec<_>>();
                 std::iter::once(sample.time_s)
-                    .chain(sample.positions)
-                    .chain(sample.velocities)
-                    .chain(sample.torques)
+                    .chain(sample.positions.clone())
+                    .chain(sample.velocities.clone())
+                    .chain(sample.torques.clone())
                     .chain(sample.energy)
-                    .chain(sample.foot_forces)
+                    .chain(sample.foot_forces.clone())
                     .chain(block)
             });
             // The time to be played counts, however little of it is.

@@ -20,7 +20,7 @@ fn steps_have_the_mean_of_the_delayed_signal() {
         let tick = step * steps_per_tick as f64;
         for delay_s in [0.0, 0.2e-3, 1e-3, 1.5e-3, 2e-3, 3.7e-3, 5e-3, 10.01e-3] {
             let acting = Acting { delay_s, ..Acting::default() };
-            let mut motors = Motors::new(&acting, step, steps_per_tick);
+            let mut motors = Motors::new(&acting, step, steps_per_tick, 12);
             let mut commands: Vec<[f64; 12]> =
                 (0..30).map(|_| std::array::from_fn(|_| random.random_range(-1.0..1.0))).collect();
             // What is on its way at the end arrives as well.
@@ -58,7 +58,7 @@ fn steps_have_the_mean_of_the_delayed_signal() {
 #[test]
 fn torques_are_continuous_in_the_delay() {
     let given = |delay_s: f64| {
-        let mut motors = Motors::new(&Acting { delay_s, ..Acting::default() }, 1e-3, 2);
+        let mut motors = Motors::new(&Acting { delay_s, ..Acting::default() }, 1e-3, 2, 12);
         for number in 0..8 {
             motors.command(&[f64::from(number * number); 12], 2e-3 * f64::from(number));
         }
@@ -82,7 +82,7 @@ fn limits_are_of_the_signal() {
         torque_limits_nm: Some([1.0, 2.0, 3.0, 4.0, 5.0, 6.0]),
         joint_stops: None,
     };
-    let mut motors = Motors::new(&acting, 1e-3, 1);
+    let mut motors = Motors::new(&acting, 1e-3, 1, 12);
     motors.command(&[-10.0; 12], 0.0);
     motors.command(&[3.5; 12], 1e-3);
     let given = motors.over_step(0);

@@ -28,12 +28,12 @@ struct Spoiled {
 
 impl Controller for Spoiled {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
-        let mut seen = *state;
+        let mut seen = state.clone();
         if self.ticks == self.from || self.stays && self.ticks > self.from {
             (self.spoil)(&mut seen, self.before.as_ref().unwrap_or(state));
         }
         self.ticks += 1;
-        self.before = Some(*state);
+        self.before = Some(state.clone());
         self.inner.tick(&seen)
     }
 
@@ -158,7 +158,7 @@ fn fault(rng: &mut Pcg64Mcg, kind: usize) -> (String, Spoil) {
             "quaternion of the other sign".to_owned(),
             Box::new(|s, _| s.positions[3..7].iter_mut().for_each(|q| *q *= -1.0)),
         ),
-        _ => ("the measurement before once more".to_owned(), Box::new(|s, old| *s = *old)),
+        _ => ("the measurement before once more".to_owned(), Box::new(|s, old| s.clone_from(old))),
     }
 }
 
@@ -166,7 +166,7 @@ fn scene(rng: &mut Pcg64Mcg) -> Scene {
     let names = ["experiment-1", "experiment-2", "experiment-1-welded"];
     let mut scene = load(names[rng.random_range(0..3)]).expect("built in");
     if let Feet::Floor { outline, .. } = &mut scene.feet {
-        *outline = [Outline::A, Outline::R, Outline::M][rng.random_range(0..3)];
+        *outline = Some([Outline::A, Outline::R, Outline::M][rng.random_range(0..3)]);
     }
     scene
 }

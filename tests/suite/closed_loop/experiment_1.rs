@@ -62,7 +62,7 @@ fn single_precision_balances_and_stays_close_to_double() {
     let double = play(|_| {}, Scalar::F64);
     assert_balanced(&single);
     for (a, b) in single.samples.iter().zip(&double.samples) {
-        for (x, y) in a.torques.iter().zip(b.torques) {
+        for (x, y) in a.torques.iter().zip(&b.torques) {
             assert!((x - y).abs() < 0.5, "at {} s: {x} against {y} N·m", a.time_s);
         }
     }
@@ -74,7 +74,7 @@ fn every_sole_and_the_printed_form_balance() {
         let run = play(
             |scene| {
                 if let Feet::Floor { outline: sole, .. } = &mut scene.feet {
-                    *sole = outline;
+                    *sole = Some(outline);
                 }
             },
             Scalar::F64,
@@ -161,10 +161,11 @@ fn a_step_too_large_is_a_failure_with_its_reason() {
 fn a_straight_knee_is_a_fault_with_its_reason() {
     let run = play(
         |scene| {
-            scene.initial.position_m[2] = 1.24;
-            scene.initial.turn_deg = 0.0;
-            scene.initial.left_leg_deg = [0.0; 6];
-            scene.initial.right_leg_deg = [0.0; 6];
+            let start = scene.initial.legs_mut().expect("legs");
+            start.position_m[2] = 1.24;
+            start.turn_deg = 0.0;
+            start.left_leg_deg = [0.0; 6];
+            start.right_leg_deg = [0.0; 6];
             scene.set_point.position_m = [0.0, 0.0, 1.1];
             scene.set_point.orientation = [1.0, 0.0, 0.0, 0.0];
         },

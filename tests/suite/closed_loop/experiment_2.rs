@@ -36,7 +36,7 @@ fn the_robot_is_struck_and_recovers() {
             let run = play("experiment-2", |scene| {
                 scene.controller.torques_from = from;
                 if let Feet::Floor { outline, .. } = &mut scene.feet {
-                    *outline = sole;
+                    *outline = Some(sole);
                 }
             });
             assert_balanced(&run);

@@ -50,7 +50,7 @@ impl Case {
         let mut scene = load(names[rng.random_range(0..2)]).expect("built in");
         let sole = [Outline::A, Outline::R, Outline::M][rng.random_range(0..3)];
         if let Feet::Floor { outline, .. } = &mut scene.feet {
-            *outline = sole;
+            *outline = Some(sole);
         }
         let mut dead = None;
         let what = match number % 4 {
@@ -65,7 +65,7 @@ impl Case {
             }
             2 => {
                 let down = rng.random_range(0.02..0.8);
-                scene.initial.position_m[2] += down;
+                scene.initial.legs_mut().expect("legs").position_m[2] += down;
                 scene.set_point.position_m[2] += if rng.random() { down } else { 0.0 };
                 format!("the floor is {down:.2} m lower")
             }

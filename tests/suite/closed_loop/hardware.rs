@@ -21,17 +21,18 @@ const DELAY: f64 = 1e-3;
 /// The scene's controller, between a note of what it answered and a change of it that a motor might make.
 struct Between<F> {
     inner: Box<dyn Controller>,
-    answers: Vec<[f64; 12]>,
+    answers: Vec<Vec<f64>>,
     /// From the answer before, zero at first, and this one.
     change: F,
 }
 
-impl<F: FnMut(&[f64; 12], &[f64; 12]) -> [f64; 12]> Controller for Between<F> {
+impl<F: FnMut(&[f64], &[f64]) -> Vec<f64>> Controller for Between<F> {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let command = self.inner.tick(state)?;
-        let before = self.answers.last().copied().unwrap_or([0.0; 12]);
+        let before = self.answers.last().cloned().unwrap_or(vec![0.0; 12]);
+        let torques = (self.change)(&before, &command.torques);
         self.answers.push(command.torques);
-        Ok(Commanded { torques: (self.change)(&before, &command.torques), ..command })
+        Ok(Commanded { torques, ..command })
     }
 
     fn stopped(&self) -> Option<StopReason> {
@@ -49,16 +50,16 @@ fn scene(change: impl FnOnce(&mut Scene)) -> Scene {
 /// A run, and what the controller answered before `change`.
 fn play_with(
     scene: &Scene,
-    change: impl FnMut(&[f64; 12], &[f64; 12]) -> [f64; 12],
-) -> (Run, Vec<[f64; 12]>) {
+    change: impl FnMut(&[f64], &[f64]) -> Vec<f64>,
+) -> (Run, Vec<Vec<f64>>) {
     let inner = controller(scene, Scalar::F64);
     let mut between = Between { inner, answers: Vec::new(), change };
     let run = closed_loop::run(scene, &mut between, &mut |_| {});
     (run, between.answers)
 }
 
-fn play(scene: &Scene) -> (Run, Vec<[f64; 12]>) {
-    play_with(scene, |_, now| *now)
+fn play(scene: &Scene) -> (Run, Vec<Vec<f64>>) {
+    play_with(scene, |_, now| now.to_vec())
 }
 
 fn assert_same_motion(ours: &Run, other: &Run) {
@@ -96,7 +97,7 @@ fn a_delay_of_a_tick_is_the_answer_before() {
             s.acting.delay_s = 2e-3;
         });
         let (ours, _) = play(&late);
-        let (shifted, _) = play_with(&prompt, |before, _| *before);
+        let (shifted, _) = play_with(&prompt, |before, _| before.to_vec());
         assert_same_motion(&ours, &shifted);
         assert_eq!(ours.samples[0].torques, [0.0; 12]);
     }
@@ -106,8 +107,8 @@ fn a_delay_of_a_tick_is_the_answer_before() {
 #[test]
 fn a_delay_within_a_step_is_a_mean() {
     let (ours, _) = play(&scene(|s| s.acting.delay_s = 1e-3));
-    let mean = |before: &[f64; 12], now: &[f64; 12]| {
-        std::array::from_fn(|i| 0.5 * before[i] + 0.5 * now[i])
+    let mean = |before: &[f64], now: &[f64]| -> Vec<f64> {
+        before.iter().zip(now).map(|(before, now)| 0.5 * before + 0.5 * now).collect()
     };
     let (averaged, answers) = play_with(&scene(|_| {}), mean);
     assert_same_motion(&ours, &averaged);

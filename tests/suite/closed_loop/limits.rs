@@ -229,8 +229,11 @@ fn manners_of_constructed_records() {
     wild.samples[1200].torques[5] = 601.0;
     assert_eq!(judge(&scene, &wild, &usual), Some(Manner::Runaway));
     for sample in &mut wild.samples[1100..] {
-        sample.contacts =
-            Some([[ContactState::Sticking, ContactState::Free]; 2].map(|[a, b]| [a, a, b, b]));
+        sample.contacts = Some(
+            [[ContactState::Sticking, ContactState::Free]; 2]
+                .map(|[a, b]| vec![a, a, b, b])
+                .to_vec(),
+        );
     }
     assert_eq!(judge(&scene, &wild, &usual), Some(Manner::Tip));
 }

@@ -7,7 +7,7 @@ use surefoot_sim::closed_loop::{Outcome, Run, Scalar, bare_controller, run};
 use surefoot_sim::integrators::Method;
 use surefoot_sim::multibody::Stops;
 use surefoot_sim::parsimony::Rung;
-use surefoot_sim::plant::{Additions, BipedModel, Variational};
+use surefoot_sim::plant::{Additions, RobotModel, Variational};
 use surefoot_sim::record::Sample;
 use surefoot_sim::scene::{
     AnyScene, JointStops, LUMPED_DEVIATION_M, ModelChoice, Scene, TorquesFrom, load, parse,
@@ -35,7 +35,7 @@ fn apart(a: &Run, b: &Run, of: impl Fn(&Sample, &Sample) -> f64) -> f64 {
     a.samples.iter().zip(&b.samples).map(|(a, b)| of(a, b)).fold(0.0, f64::max)
 }
 
-fn largest<const M: usize>(a: &[f64; M], b: &[f64; M]) -> f64 {
+fn largest(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
@@ -75,7 +75,7 @@ fn the_lumped_biped_stays_as_close_as_stated() {
             // Where a foot lands askew its torques are impacts', which differ for a tick.
             assert!(of_torques < 1.5, "{name}: {of_torques}");
             let peak = |run: &Run| {
-                run.samples.iter().flat_map(|s| s.torques).fold(0.0, |m: f64, t| m.max(t.abs()))
+                run.samples.iter().flat_map(|s| &s.torques).fold(0.0, |m: f64, t| m.max(t.abs()))
             };
             assert!((peak(&full) / peak(&lumped) - 1.0).abs() < 1e-3, "{name}");
         }
@@ -93,8 +93,8 @@ fn auto_takes_the_smallest_model_that_the_scene_bears() {
         let rung = scene.rung();
         (rung.model, rung.reason)
     };
-    assert_eq!(chosen(&|_| {}).0, BipedModel::Lumped);
-    assert_eq!(chosen(&|s| s.matters.deviation_m = LUMPED_DEVIATION_M).0, BipedModel::Lumped);
+    assert_eq!(chosen(&|_| {}).0, RobotModel::Lumped);
+    assert_eq!(chosen(&|s| s.matters.deviation_m = LUMPED_DEVIATION_M).0, RobotModel::Lumped);
     for (change, word) in [
         (&(|s: &mut Scene| s.model = ModelChoice::Full) as &dyn Fn(&mut Scene), "names it"),
         (&|s| s.matters.deviation_m = 1e-6, "1e-6 m matter"),
@@ -106,10 +106,10 @@ fn auto_takes_the_smallest_model_that_the_scene_bears() {
             },
             "baseline",
         ),
-        (&|s| s.initial.left_leg_deg[1] = 80.0, "gimbal lock"),
+        (&|s| s.initial.legs_mut().expect("legs").left_leg_deg[1] = 80.0, "gimbal lock"),
     ] {
         let (model, reason) = chosen(change);
-        assert_eq!(model, BipedModel::Full, "{word}");
+        assert_eq!(model, RobotModel::Full, "{word}");
         assert!(reason.contains(word), "{reason}");
     }
 }
@@ -145,9 +145,12 @@ fn models_that_cannot_be_are_refused() {
     }
     let AnyScene::Robot(scene) = parse("test", text).expect("a scene") else { unreachable!() };
     let free = Stops { low: -3.0, high: 3.0, stiffness: 100.0 };
-    let additions =
-        Additions { model: BipedModel::Lumped, stops: Some([free; 12]), ..Additions::default() };
-    let refused = Variational::welded(&scene.initial.state(), 1e-3, &additions);
+    let additions = Additions {
+        model: RobotModel::Lumped,
+        stops: Some(vec![free; 12]),
+        ..Additions::default()
+    };
+    let refused = Variational::welded(&scene.robot(), &scene.initial.state(), 1e-3, &additions);
     let error = refused.map(|_| ()).expect_err("hinges are gone").to_string();
     assert!(error.contains("full model"), "{error}");
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use surefoot::spatial::Quaternion;
 use surefoot_sim::closed_loop::Sensors;
-use surefoot_sim::plant::{NQ, NV, PlantState};
+use surefoot_sim::plant::PlantState;
 use surefoot_sim::scene::Sensing;
 
 const PERIOD: f64 = 2e-3;
@@ -19,9 +19,9 @@ const NOISY: Sensing = Sensing {
 fn state() -> PlantState {
     let axis = Vector3::new(0.3, -0.8, 0.5).normalize();
     let q = Quaternion::from_axis_angle(axis, 0.9);
-    let mut positions: [f64; NQ] = std::array::from_fn(|i| 0.2 * (i as f64).sin());
+    let mut positions: Vec<f64> = (0..19).map(|i| 0.2 * f64::from(i).sin()).collect();
     positions[3..7].copy_from_slice(&q.to_array());
-    PlantState { positions, velocities: std::array::from_fn(|i| (i as f64).cos()) }
+    PlantState { positions, velocities: (0..18).map(|i| f64::from(i).cos()).collect() }
 }
 
 /// Joints that swing: angles are read to half a count, rates are mean rates to one count a tick, and nothing
@@ -30,7 +30,7 @@ fn state() -> PlantState {
 fn encoders_read_whole_counts_and_their_differences() {
     let sensing = Sensing { encoder_counts: 4096, ..Sensing::default() };
     let count = std::f64::consts::TAU / 4096.0;
-    let mut sensors = Sensors::new(&sensing, PERIOD);
+    let mut sensors = Sensors::new(&sensing, PERIOD, 12);
     let angle = |joint: usize, time: f64| 0.8 * (3.0 * time + joint as f64).sin();
     let rate = |joint: usize, time: f64| 2.4 * (3.0 * time + joint as f64).cos();
     let (mut largest, mut largest_of_rates) = (0.0_f64, 0.0_f64);
@@ -94,12 +94,12 @@ fn errors_have_the_deviations_and_the_memory_of_their_equations() {
     let mut squares = [[0.0; 4]; 2];
     let (mut products, mut sums) = ([0.0; 4], [0.0; 4]);
     for seed in 0..SEEDS {
-        let mut sensors = Sensors::new(&Sensing { seed, ..NOISY }, PERIOD);
-        let first = errors(&sensors.read(&truth), &truth);
+        let mut sensors = Sensors::new(&Sensing { seed, ..NOISY }, PERIOD, 12);
+        let first = errors(sensors.read(&truth), &truth);
         for _ in 1..ticks {
             sensors.read(&truth);
         }
-        let last = errors(&sensors.read(&truth), &truth);
+        let last = errors(sensors.read(&truth), &truth);
         for i in 0..4 {
             squares[0][i] += first[i].norm_squared();
             squares[1][i] += last[i].norm_squared();
@@ -130,11 +130,11 @@ fn the_same_noise_is_told_and_integrated() {
     let truth = state();
     let t = 5.0 * PERIOD;
     let sensing = Sensing { correction_s: t, accelerometer_noise: 1e-3, ..NOISY };
-    let mut sensors = Sensors::new(&sensing, PERIOD);
-    let mut before = errors(&sensors.read(&truth), &truth);
+    let mut sensors = Sensors::new(&sensing, PERIOD, 12);
+    let mut before = errors(sensors.read(&truth), &truth);
     let decay = (-PERIOD / t).exp();
     for _ in 0..100 {
-        let now = errors(&sensors.read(&truth), &truth);
+        let now = errors(sensors.read(&truth), &truth);
         let pushing = (now[1] - before[1] * decay) / (t * (1.0 - decay));
         let rates =
             |[angle, v, p]: [Vector3<f64>; 3]| [now[3] - angle / t, pushing - v / t, v - p / t];
@@ -160,10 +160,10 @@ fn the_same_noise_is_told_and_integrated() {
 fn a_seed_is_a_noise() {
     let readings = |seed| {
         let sensing = Sensing { seed, encoder_counts: 1 << 14, ..NOISY };
-        let mut sensors = Sensors::new(&sensing, PERIOD);
-        let bits = |state: PlantState| {
-            let numbers = state.positions.into_iter().chain(state.velocities);
-            numbers.map(f64::to_bits).collect::<Vec<_>>()
+        let mut sensors = Sensors::new(&sensing, PERIOD, 12);
+        let bits = |state: &PlantState| {
+            let numbers = state.positions.iter().chain(&state.velocities);
+            numbers.map(|x| x.to_bits()).collect::<Vec<_>>()
         };
         (0..50).map(|_| bits(sensors.read(&state()))).collect::<Vec<_>>()
     };
@@ -174,11 +174,12 @@ fn a_seed_is_a_noise() {
 
 #[test]
 fn ideal_sensors_read_the_state() {
-    let still = PlantState { positions: [0.1; NQ], velocities: [-0.0; NV] };
-    let mut sensors = Sensors::new(&Sensing::default(), PERIOD);
+    let still = PlantState { positions: vec![0.1; 19], velocities: vec![-0.0; 18] };
+    let mut sensors = Sensors::new(&Sensing::default(), PERIOD, 12);
     for truth in [state(), still] {
         let seen = sensors.read(&truth);
-        assert_eq!(seen.positions.map(f64::to_bits), truth.positions.map(f64::to_bits));
-        assert_eq!(seen.velocities.map(f64::to_bits), truth.velocities.map(f64::to_bits));
+        let bits = |all: &[f64]| -> Vec<u64> { all.iter().map(|x| x.to_bits()).collect() };
+        assert_eq!(bits(&seen.positions), bits(&truth.positions));
+        assert_eq!(bits(&seen.velocities), bits(&truth.velocities));
     }
 }

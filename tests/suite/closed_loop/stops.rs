@@ -6,7 +6,8 @@ use surefoot_sim::contact::Floor;
 use surefoot_sim::integrators::Method;
 use surefoot_sim::multibody::Stops;
 use surefoot_sim::plant::{Additions, OnFloor, Plant, PlantState, Variational};
-use surefoot_sim::scene::{Integrator, JointStops, load};
+use surefoot_sim::robot::biped;
+use surefoot_sim::scene::{Integrator, JointStops, Outline, load};
 
 /// The left knee's angle and torque; its rate is one further back.
 const KNEE: usize = 10;
@@ -28,12 +29,13 @@ fn energy(plant: &mut dyn Plant) -> f64 {
 }
 
 fn variational(state: &PlantState, stops: Option<&[Stops; 12]>, h: f64) -> Variational {
-    let additions = Additions { stops: stops.copied(), ..Additions::default() };
-    Variational::on_floor(state, h, Floor::RUBBER, &SoleOutline::A, &additions).expect("a plant")
+    let additions = Additions { stops: stops.map(|stops| stops.to_vec()), ..Additions::default() };
+    let robot = biped(Outline::A);
+    Variational::on_floor(&robot, state, h, Floor::RUBBER, &additions).expect("a plant")
 }
 
 fn baseline(state: &PlantState, stops: [Stops; 12]) -> OnFloor {
-    OnFloor::new(*state, Floor::RUBBER, &SoleOutline::A).with_stops(Some(stops))
+    OnFloor::new(state, Floor::RUBBER, &SoleOutline::A).with_stops(Some(stops.to_vec()))
 }
 
 /// States of 0.1 s in steps of `h`, every millisecond, under a torque on the knee.

@@ -24,7 +24,7 @@ fn experiments_run_without_a_false_stop() {
                     let mut scene = load(name).expect("built in");
                     (scene.integrator.step_s, scene.duration_s) = (step_s, duration_s);
                     match &mut scene.feet {
-                        Feet::Floor { outline, .. } => *outline = sole,
+                        Feet::Floor { outline, .. } => *outline = Some(sole),
                         Feet::Welded {} if sole != Outline::A || from != TorquesFrom::Start => {
                             continue;
                         }
@@ -48,7 +48,7 @@ fn experiments_run_without_a_false_stop() {
             let mut scene = load("experiment-1").expect("built in");
             (scene.integrator.step_s, scene.controller.rate_hz) = (step_s, rate_hz);
             if let Feet::Floor { outline, .. } = &mut scene.feet {
-                *outline = sole;
+                *outline = Some(sole);
             }
             play(&scene, Scalar::F32, &format!("experiment-1, sole {sole:?}, {rate_hz} Hz"));
         }

@@ -8,13 +8,14 @@ use surefoot_sim::contact::{ContactState, Switching};
 use surefoot_sim::integrators::Progress;
 use surefoot_sim::multibody::{
     Body, Closing, Closure, Frame, Joint, JointConstraint, Link, Simulation, Stops, Striker,
-    System, lumped, states_of_tree, system_of_tree,
+    System, lumped, system_of_tree,
 };
 use surefoot_sim::plant::{
-    Additions, BipedModel, BlockSample, Observation, Plant, PlantState, SMALL_BODIES, StepFailure,
+    Additions, BlockSample, Observation, PerPoint, Plant, PlantState, RobotModel, StepFailure,
     ThrownBlock, Variational,
 };
-use surefoot_sim::scene::{Block, ModelChoice, Scene, load};
+use surefoot_sim::robot::{SMALL_BODIES, Start, biped};
+use surefoot_sim::scene::{Block, ModelChoice, Outline, Scene, load};
 
 /// The tree afloat, with both feet welded by constraints beside it: what the plant was before it hung from its
 /// feet.
@@ -27,12 +28,12 @@ struct Afloat {
 }
 
 impl Afloat {
-    fn new(state: &PlantState, h: f64, model: BipedModel, block: Option<ThrownBlock>) -> Self {
+    fn new(state: &PlantState, h: f64, model: RobotModel, block: Option<ThrownBlock>) -> Self {
         let full = system_of_tree(&TREE).expect("a system");
-        let (mut states, mut rates) =
-            states_of_tree(&TREE, &state.positions, &state.velocities).expect("a configuration");
+        let start = biped(Outline::A).tree.start(&state.positions, &state.velocities);
+        let Start { mut states, mut rates, .. } = start.expect("a configuration");
         let (mut system, mut feet, mut central) = (full.clone(), FEET, Frame::IDENTITY);
-        if model == BipedModel::Lumped {
+        if model == RobotModel::Lumped {
             let reduced = lumped(&full, &SMALL_BODIES).expect("hinges that meet");
             let place = |link: usize| reduced.carrier(link).expect("a body that stays");
             (feet, central) = (FEET.map(|foot| place(foot).0.expect("it moves")), place(0).1);
@@ -84,7 +85,7 @@ fn with_block(system: System, block: &ThrownBlock) -> System {
 }
 
 impl Plant for Afloat {
-    fn state(&mut self) -> Result<PlantState, StepFailure> {
+    fn read_state(&mut self, state: &mut PlantState) -> Result<(), StepFailure> {
         let rates = self.motion.observed_rates()?.to_vec();
         let [x, y, z, s, i, j, k] = self.motion.state(0);
         let q = Quaternion::from_array([s, i, j, k]);
@@ -94,7 +95,8 @@ impl Plant for Afloat {
         let seen = |v: Vector3<f64>| turned.conjugate().rotate(v);
         let at = Vector3::new(x, y, z) + arm;
         let twist = [seen(v + omega.cross(&arm)), seen(omega)];
-        let (mut positions, mut velocities) = ([0.0; 19], [0.0; 18]);
+        *state = PlantState::home(12);
+        let PlantState { positions, velocities } = state;
         positions[..3].copy_from_slice(at.as_slice());
         positions[3..7].copy_from_slice(&turned.to_array());
         velocities[..3].copy_from_slice(twist[0].as_slice());
@@ -105,13 +107,13 @@ impl Plant for Afloat {
             positions[next..next + motors].copy_from_slice(&self.motion.angles(*joint)[..*motors]);
             next += motors;
         }
-        Ok(PlantState { positions, velocities })
+        Ok(())
     }
 
     fn step(
         &mut self,
         _: f64,
-        torques: &[f64; 12],
+        torques: &[f64],
         load: Option<Wrench<f64>>,
     ) -> Result<(), StepFailure> {
         assert!(load.is_none(), "no load in these scenes");
@@ -123,8 +125,12 @@ impl Plant for Afloat {
         Ok(self.motion.step()?)
     }
 
-    fn contacts(&self) -> Option<[[ContactState; 4]; 2]> {
-        None
+    fn read_contacts(&self, _: &mut PerPoint<ContactState>) -> bool {
+        false
+    }
+
+    fn unknowns(&self) -> usize {
+        self.motion.unknowns()
     }
 
     fn observe(&mut self) -> Result<Observation, StepFailure> {
@@ -134,7 +140,7 @@ impl Plant for Afloat {
         Ok(Observation {
             kinetic_energy,
             potential_energy,
-            foot_forces: [impulses[2] / h, impulses[8] / h],
+            foot_forces: vec![impulses[2] / h, impulses[8] / h],
             contacts: None,
             corner_forces: None,
             block: self.block.map(|link| BlockSample {
@@ -154,8 +160,8 @@ impl Plant for Afloat {
     }
 }
 
-fn models() -> [(ModelChoice, BipedModel, usize); 2] {
-    [(ModelChoice::Full, BipedModel::Full, 16), (ModelChoice::Lumped, BipedModel::Lumped, 12)]
+fn models() -> [(ModelChoice, RobotModel, usize); 2] {
+    [(ModelChoice::Full, RobotModel::Full, 16), (ModelChoice::Lumped, RobotModel::Lumped, 12)]
 }
 
 fn scene(name: &str, model: ModelChoice) -> Scene {
@@ -236,7 +242,8 @@ fn still_feet_bear_any_torques() {
         let start = scene.initial.state();
         let h = 1e-3;
         let additions = Additions { model, ..Additions::default() };
-        let mut new = Variational::welded(&start, h, &additions).expect("a plant");
+        let mut new =
+            Variational::welded(&biped(Outline::A), &start, h, &additions).expect("a plant");
         let mut old = Afloat::new(&start, h, model, None);
         let mut apart = [0.0_f64; 3];
         for step in 0..100 {
@@ -266,10 +273,11 @@ fn stops_leave_one_foot_welded() {
     let scene = scene("experiment-1-welded", ModelChoice::Full);
     let start = scene.initial.state();
     let stops = Stops { low: -3.0, high: 3.0, stiffness: 100.0 };
-    let with = Additions { stops: Some([stops; 12]), ..Additions::default() };
+    let with = Additions { stops: Some(vec![stops; 12]), ..Additions::default() };
     let h = 1e-3;
-    let mut held = Variational::welded(&start, h, &with).expect("a plant");
-    let mut free = Variational::welded(&start, h, &Additions::default()).expect("a plant");
+    let mut held = Variational::welded(&biped(Outline::A), &start, h, &with).expect("a plant");
+    let mut free =
+        Variational::welded(&biped(Outline::A), &start, h, &Additions::default()).expect("a plant");
     assert_eq!((held.unknowns(), free.unknowns()), (18, 16));
     let mut apart = [0.0_f64; 3];
     for step in 0..100 {

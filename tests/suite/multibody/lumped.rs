@@ -9,7 +9,7 @@ use surefoot_sim::multibody::{
     Body, BodyState, Closing, Closure, Joint, JointConstraint, JointLaw, Reduced, Simulation, Site,
     System, SystemError, lumped, states_of_tree, system_of_tree,
 };
-use surefoot_sim::plant::SMALL_BODIES;
+use surefoot_sim::robot::SMALL_BODIES;
 
 /// Joints of both models with motors, in the order of the hinges.
 const LUMPED_JOINTS: [(usize, usize); 6] = [(1, 3), (2, 1), (3, 2), (4, 3), (5, 1), (6, 2)];

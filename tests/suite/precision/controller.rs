@@ -65,7 +65,7 @@ fn a_big_base_wants_more_digits_than_single_precision_has() {
 fn approximations_are_exact_where_nothing_is_left_out() {
     let scene = load("experiment-1").expect("built in");
     let at_rest = scene.initial.state();
-    let mut moving = at_rest;
+    let mut moving = at_rest.clone();
     for (i, v) in moving.velocities.iter_mut().enumerate() {
         *v = 0.3 * (i as f64).sin();
     }
@@ -73,7 +73,7 @@ fn approximations_are_exact_where_nothing_is_left_out() {
         *x += 0.05;
     }
     let mut exact = bare_controller(&scene, Scalar::F64);
-    let mut apart = |other: &[f64; 12], state: &PlantState| {
+    let mut apart = |other: &[f64], state: &PlantState| {
         let torques = exact.tick(state).expect("a regular state").torques;
         torques.iter().zip(other).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()))
     };
@@ -86,7 +86,7 @@ fn approximations_are_exact_where_nothing_is_left_out() {
     let mut held = approximate_controller(&scene, Scalar::F64, Approximation::HeldFor4);
     for tick in 0..9 {
         // Computed at ticks 0, 4 and 8, of two different states.
-        let state = if tick == 0 || tick > 4 { at_rest } else { moving };
+        let state = if tick == 0 || tick > 4 { at_rest.clone() } else { moving.clone() };
         let off = apart(&at(&state, held.as_mut()), &state);
         println!("tick {tick}: {off:.1e}");
         match tick {

@@ -1,7 +1,7 @@
 //! Robots of other projects: imported, and their dynamics against Pinocchio and MuJoCo.
 
 use crate::step::Step;
-use crate::workspace;
+use crate::{apt, workspace};
 use anyhow::{Context, Result};
 
 /// Robot files, and the tool that MJCF models are held against.
@@ -23,9 +23,12 @@ pub fn run() -> Result<String> {
     let python = folder.join("bin").join("python");
     let probe = Step::new(&python, ["-c", PROBE]).args(PACKAGES);
     if !probe.succeeds() {
-        Step::new("python3", ["-m", "venv"]).args([&folder]).within(INSTALL_LIMIT).run().context(
-            "robot files come as Python packages: Python 3 with its module venv is needed for them",
-        )?;
+        let make = Step::new("python3", ["-m", "venv"]).args([&folder]).within(INSTALL_LIMIT);
+        if !make.succeeds() {
+            apt::install("python3-venv")
+                .and_then(|()| make.run())
+                .context("robot files come as Python packages: Python 3 with its module venv is needed for them")?;
+        }
         Step::new(&python, ["-m", "pip", "install", "--quiet"])
             .args(PACKAGES)
             .within(INSTALL_LIMIT)

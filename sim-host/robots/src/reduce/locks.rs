@@ -76,9 +76,14 @@ fn lock_all_but_legs(
         carriers[joint.child] = Some(j);
     }
     let mut is_leg = vec![false; description.joints.len()];
+    // Those that the file has, unless others are named.
+    let of_file = description.feet.iter().filter(|_| options.feet.is_empty()).map(|foot| foot.link);
+    let mut feet: Vec<usize> = of_file.collect();
     for foot in &options.feet {
         let link = description.links.iter().position(|link| link.name == *foot);
-        let mut at = link.ok_or_else(|| no_link(description, "--feet", foot))?;
+        feet.push(link.ok_or_else(|| no_link(description, "--feet", foot))?);
+    }
+    for mut at in feet {
         while let (true, Some(j)) = (at != root, carriers[at]) {
             is_leg[j] = true;
             at = description.joints[j].parent;

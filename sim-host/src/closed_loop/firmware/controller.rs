@@ -103,9 +103,9 @@ impl Controller for FirmwareController {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let torques = self.exchange(state)?;
         self.stopped = torques.reason;
-        let [left, right] = torques.joint_torques;
+        let joints = torques.joint_torques.as_flattened();
         Ok(Commanded {
-            torques: std::array::from_fn(|i| f64::from(if i < 6 { left[i] } else { right[i - 6] })),
+            torques: joints.iter().copied().map(f64::from).collect(),
             desired_wrench: torques.desired_wrench.map(f64::from),
         })
     }

@@ -3,15 +3,15 @@
 use super::arrows::arrow;
 use super::nanoseconds;
 use crate::chart::OKABE_ITO;
-use crate::picture::{BODY_NAMES, DESIRED_FORCE_LENGTH, FORCE_LENGTH, Shown, Solid, TORQUE_LENGTH};
-use crate::record::{Event, JOINTS, Sample};
+use crate::picture::{DESIRED_FORCE_LENGTH, FORCE_LENGTH, Shown, Solid, TORQUE_LENGTH};
+use crate::record::{Event, Sample};
+use crate::robot::Robot;
 use ::foxglove::messages::log::Level;
 use ::foxglove::messages::{
     Color, FrameTransform, FrameTransforms, JointState, JointStates, Log, Point3, Quaternion,
     SceneEntity, SceneUpdate, Timestamp, TriangleListPrimitive, Vector3 as FoxgloveVector,
 };
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
-use surefoot::model::robots::biped::FEET;
 use surefoot::spatial::Pose;
 
 const WORLD: &str = "world";
@@ -43,7 +43,7 @@ fn color(index: usize, alpha: f64) -> Color {
 }
 
 /// Frames of all bodies, and of the block, in the world's.
-pub(super) fn transforms(sample: &Sample, poses: &[Pose<f64>; 13]) -> FrameTransforms {
+pub(super) fn transforms(robot: &Robot, sample: &Sample, poses: &[Pose<f64>]) -> FrameTransforms {
     let transform = |child: String, position: Vector3<f64>, rotation: Quaternion| FrameTransform {
         timestamp: timestamp(sample.time_s),
         parent_frame_id: WORLD.to_owned(),
@@ -51,7 +51,8 @@ pub(super) fn transforms(sample: &Sample, poses: &[Pose<f64>; 13]) -> FrameTrans
         translation: Some(vector(position)),
         rotation: Some(rotation),
     };
-    let mut transforms: Vec<FrameTransform> = BODY_NAMES
+    let mut transforms: Vec<FrameTransform> = robot
+        .bodies
         .iter()
         .zip(poses)
         .map(|(body, pose)| {
@@ -70,15 +71,17 @@ pub(super) fn transforms(sample: &Sample, poses: &[Pose<f64>; 13]) -> FrameTrans
 
 /// Solids that go with their frames, and a ghost at the set point.
 pub(super) fn robot(shown: &Shown, time_s: f64) -> SceneUpdate {
-    let mut entities: Vec<SceneEntity> = BODY_NAMES
+    let mut entities: Vec<SceneEntity> = shown
+        .robot
+        .bodies
         .iter()
-        .zip(&shown.solids)
+        .zip(&shown.robot.shapes)
         .enumerate()
         .map(|(k, (body, solid))| {
-            let of_leg = match k {
-                0 => color(2, 1.0),
-                1..=6 => color(5, 1.0),
-                _ => color(3, 1.0),
+            let of_leg = match shown.robot.leg_of(k) {
+                None => color(2, 1.0),
+                Some(leg) if leg % 2 == 0 => color(5, 1.0),
+                Some(_) => color(3, 1.0),
             };
             solid_entity(time_s, &frame(body), body, solid, of_leg)
         })
@@ -88,7 +91,7 @@ pub(super) fn robot(shown: &Shown, time_s: f64) -> SceneUpdate {
     }
     let [s, i, j, k] = shown.set_point.orientation;
     let rotation = surefoot::spatial::Quaternion::from_array([s, i, j, k]).to_matrix();
-    let ghost = shown.solids[0].clone().moved(&rotation, shown.set_point.position_m.into());
+    let ghost = shown.robot.shapes[0].clone().moved(&rotation, shown.set_point.position_m.into());
     entities.push(solid_entity(time_s, WORLD, "set point", &ghost, color(0, 0.15)));
     SceneUpdate { deletions: Vec::new(), entities }
 }
@@ -115,13 +118,13 @@ fn solid_entity(time_s: f64, frame: &str, id: &str, solid: &Solid, color: Color)
 
 /// The forces of the ground and of the block, and the wrench that the controller asks for. Each message
 /// replaces the one before, as the entity's name is the same.
-pub(super) fn forces(shown: &Shown, sample: &Sample, poses: &[Pose<f64>; 13]) -> SceneUpdate {
+pub(super) fn forces(shown: &Shown, sample: &Sample, poses: &[Pose<f64>]) -> SceneUpdate {
     let mut arrows = Vec::new();
-    if let (Some(corners), Some(forces)) = (shown.corners, sample.corner_forces) {
-        for (foot, forces) in FEET.iter().zip(forces) {
-            for (corner, force) in corners.iter().zip(forces) {
-                let at = poses[*foot].transform_point(*corner);
-                arrows.extend(arrow(at, Vector3::from(force) * FORCE_LENGTH, color(1, 1.0)));
+    if let Some(forces) = sample.corner_forces.as_ref().filter(|_| shown.has_contacts) {
+        for (foot, forces) in shown.robot.feet.iter().zip(forces) {
+            for (point, force) in foot.points.iter().zip(forces) {
+                let at = poses[foot.body].transform_point(point.at);
+                arrows.extend(arrow(at, Vector3::from(*force) * FORCE_LENGTH, color(1, 1.0)));
             }
         }
     }
@@ -146,9 +149,9 @@ pub(super) fn forces(shown: &Shown, sample: &Sample, poses: &[Pose<f64>; 13]) ->
 }
 
 /// Angles, rates and torques of all joints.
-pub(super) fn joints(sample: &Sample) -> JointStates {
-    let joint = |(i, name): (usize, &&str)| JointState {
-        name: (*name).to_owned(),
+pub(super) fn joints(robot: &Robot, sample: &Sample) -> JointStates {
+    let joint = |(i, name): (usize, &String)| JointState {
+        name: name.clone(),
         position: Some(sample.positions[7 + i]),
         velocity: Some(sample.velocities[6 + i]),
         acceleration: None,
@@ -156,7 +159,7 @@ pub(super) fn joints(sample: &Sample) -> JointStates {
     };
     JointStates {
         timestamp: timestamp(sample.time_s),
-        joints: JOINTS.iter().enumerate().map(joint).collect(),
+        joints: robot.joints.iter().enumerate().map(joint).collect(),
     }
 }
 

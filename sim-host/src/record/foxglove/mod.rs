@@ -14,7 +14,7 @@ mod messages;
 mod tracking;
 
 use super::{Event, Sample};
-use crate::picture::{Shown, body_poses_at, frames};
+use crate::picture::{Shown, frames};
 use ::foxglove::Encode;
 use ::foxglove::messages::{FrameTransforms, JointStates, Log, SceneUpdate};
 use mcap::records::MessageHeader;
@@ -48,14 +48,15 @@ pub fn write_mcap<W: Write + Seek>(
     events: &[Event],
     to: W,
 ) -> Result<(), RecordFailure> {
+    let robot = &shown.robot;
     let options = WriteOptions::new().compression(None).library("surefoot");
     let mut writer = Writer::with_options(to, options)?;
     let mut transforms = Topic::new::<FrameTransforms, W>(&mut writer, "/tf")?;
-    let mut robot = Topic::new::<SceneUpdate, W>(&mut writer, "/robot")?;
+    let mut solids = Topic::new::<SceneUpdate, W>(&mut writer, "/robot")?;
     let mut forces = Topic::new::<SceneUpdate, W>(&mut writer, "/forces")?;
     let mut joints = Topic::new::<JointStates, W>(&mut writer, "/joints")?;
     let mut log = Topic::new::<Log, W>(&mut writer, "/events")?;
-    let schema = tracking::schema().to_string();
+    let schema = tracking::schema(robot).to_string();
     let schema = writer.add_schema("surefoot.Tracking", "jsonschema", schema.as_bytes())?;
     let mut tracking = Topic::with(&mut writer, schema, "/tracking", "json")?;
 
@@ -67,17 +68,25 @@ pub fn write_mcap<W: Write + Seek>(
         }
         let time = sample.time_s;
         if i == 0 {
-            robot.write(&mut writer, time, &messages::robot(shown, time))?;
+            solids.write(&mut writer, time, &messages::robot(shown, time))?;
         }
         if frames.next_if_eq(&i).is_some() {
             // A run that diverged ends in what is no configuration: there is nothing to show of it.
-            if let Ok(poses) = body_poses_at(&sample.positions) {
-                transforms.write(&mut writer, time, &messages::transforms(sample, &poses))?;
+            if let Ok(poses) = robot.tree.body_poses(&sample.positions) {
+                transforms.write(
+                    &mut writer,
+                    time,
+                    &messages::transforms(robot, sample, &poses),
+                )?;
                 forces.write(&mut writer, time, &messages::forces(shown, sample, &poses))?;
             }
         }
-        joints.write(&mut writer, time, &messages::joints(sample))?;
-        tracking.append(&mut writer, time, tracking::message(sample).to_string().as_bytes())?;
+        joints.write(&mut writer, time, &messages::joints(robot, sample))?;
+        tracking.append(
+            &mut writer,
+            time,
+            tracking::message(robot, sample).to_string().as_bytes(),
+        )?;
     }
     for event in events {
         log.write(&mut writer, event.time_s, &messages::log(event))?;

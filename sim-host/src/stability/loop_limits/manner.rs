@@ -1,7 +1,7 @@
 //! How a run fails, told from its record.
 //!
 //! A run that does not work is *lost* at a moment, in a first manner; the first of these that holds:
-//! 1. some joint's torque went beyond [`RUNAWAY`] times what the biped's motors are made for. So end most:
+//! 1. some joint's torque went beyond [`RUNAWAY`] times what the robot's motors are made for. So end most:
 //!    the controller takes the feet for fixed, and where they are not, their rates enter its torques
 //!    squared, which so square themselves from tick to tick. If all soles had left flat contact more than
 //!    [`RUNAWAY_TICKS`] ticks before, the robot had tipped or lifted off, and the torques only followed:
@@ -32,12 +32,11 @@ use super::criterion::{Criterion, last_seconds};
 use crate::closed_loop::{Run, Stop};
 use crate::contact::ContactState;
 use crate::record::{EventKind, Sample};
+use crate::robot::{Limits, Robot};
 use crate::scene::{Feet, Scene};
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 use surefoot::balance::{Fault, StopReason};
-use surefoot::dynamics::{body_poses, joint_poses};
-use surefoot::model::robots::biped::{FEET, LIMITS, TREE};
 use surefoot::spatial::Quaternion;
 
 /// How a run fails.
@@ -68,7 +67,7 @@ pub enum Manner {
     NotReachable,
 }
 
-/// Torques of so many times [`LIMITS`] are a runaway.
+/// Torques of so many times its [`Limits`] are a runaway.
 pub const RUNAWAY: f64 = 3.0;
 /// Ticks that a runaway takes: soles that it tears off the floor are off it for no longer.
 pub const RUNAWAY_TICKS: usize = 5;
@@ -78,9 +77,6 @@ pub const LEANING_DEG: f64 = 30.0;
 pub const BEFORE_S: f64 = 1.0;
 /// Way along the floor of a corner that slips, m.
 pub const SLIP_M: f64 = 0.03;
-
-/// As events name them.
-const FOOT_NAMES: [&str; 2] = ["left foot", "right foot"];
 
 impl Manner {
     /// For people.
@@ -134,7 +130,8 @@ impl Ending<'_> {
         if failure.is_none() && criterion.is_settled(samples, &self.scene.set_point) {
             return None;
         }
-        if let Some(runaway) = samples.iter().position(runs_away) {
+        let limits = &self.scene.robot().limits;
+        if let Some(runaway) = samples.iter().position(|sample| runs_away(sample, limits)) {
             let flat = samples_to_last_flat_sole(&samples[..runaway]);
             let tipped = runaway - flat > RUNAWAY_TICKS;
             return Some((if tipped { Manner::Tip } else { Manner::Runaway }, flat));
@@ -161,13 +158,17 @@ impl Ending<'_> {
 
     /// The longest way of a corner along the floor, m; none where feet are welded.
     fn slide(&self, samples: &[Sample]) -> f64 {
-        let Feet::Floor { outline, .. } = &self.scene.feet else { return 0.0 };
-        let corners = outline.sole().corners();
-        let mut ways = [[Vector2::<f64>::zeros(); 4]; 2];
-        let down: Vec<_> = samples.iter().map(|sample| corners_down(sample, &corners)).collect();
+        let Feet::Floor { .. } = &self.scene.feet else { return 0.0 };
+        let robot = self.scene.robot();
+        let mut ways: Vec<Vec<Vector2<f64>>> = robot
+            .points_of_feet()
+            .into_iter()
+            .map(|points| vec![Vector2::zeros(); points])
+            .collect();
+        let down: Vec<_> = samples.iter().map(|sample| corners_down(sample, &robot)).collect();
         for (times, places) in samples.windows(2).zip(down.windows(2)) {
-            for foot in 0..2 {
-                if self.lifts_off(foot, times[0].time_s, times[1].time_s) {
+            for (foot, of) in robot.feet.iter().enumerate() {
+                if self.lifts_off(&of.name, times[0].time_s, times[1].time_s) {
                     continue;
                 }
                 for (corner, way) in ways[foot].iter_mut().enumerate() {
@@ -181,10 +182,10 @@ impl Ending<'_> {
     }
 
     /// Whether a foot has been off the floor between two samples.
-    fn lifts_off(&self, foot: usize, after_s: f64, until_s: f64) -> bool {
+    fn lifts_off(&self, foot: &str, after_s: f64, until_s: f64) -> bool {
         self.run.events.iter().any(|event| {
             event.kind == EventKind::LiftOff
-                && event.place == FOOT_NAMES[foot]
+                && event.place == foot
                 && event.time_s > after_s
                 && event.time_s <= until_s
         })
@@ -209,8 +210,8 @@ fn stopped(samples: &[Sample], reason: StopReason) -> (Manner, usize) {
 }
 
 /// Whether a torque is beyond all that a motor could give.
-pub(in crate::stability) fn runs_away(sample: &Sample) -> bool {
-    let legs = sample.torques.iter().zip(LIMITS.joints.iter().flatten());
+pub(in crate::stability) fn runs_away(sample: &Sample, limits: &Limits) -> bool {
+    let legs = sample.torques.iter().zip(&limits.joints);
     legs.into_iter().any(|(torque, joint)| !(torque.abs() <= RUNAWAY * joint.torque))
 }
 
@@ -228,24 +229,28 @@ fn samples_to_last_flat_sole(samples: &[Sample]) -> usize {
 /// Whether all corners of a sole are down.
 pub(in crate::stability) fn has_flat_sole(sample: &Sample) -> bool {
     // Feet without contact points are welded.
-    sample.contacts.is_none_or(|feet| feet.iter().any(|sole| sole.iter().all(|c| is_down(*c))))
+    sample
+        .contacts
+        .as_ref()
+        .is_none_or(|feet| feet.iter().any(|sole| sole.iter().all(|c| is_down(*c))))
 }
 
 fn is_down(state: ContactState) -> bool {
     !matches!(state, ContactState::Free | ContactState::NegativeNormalForce)
 }
 
-/// Where on the floor the corners are that are down, m.
-fn corners_down(sample: &Sample, corners: &[Vector3<f64>; 4]) -> [[Option<Vector2<f64>>; 4]; 2] {
-    let (Some(contacts), Ok(joints)) = (sample.contacts, joint_poses(&TREE, &sample.positions))
-    else {
-        return [[None; 4]; 2];
+/// Where on the floor the points of feet are that are down, m, by foot and point.
+fn corners_down(sample: &Sample, robot: &Robot) -> Vec<Vec<Option<Vector2<f64>>>> {
+    let poses = robot.tree.body_poses(&sample.positions);
+    let (Some(contacts), Ok(poses)) = (&sample.contacts, poses) else {
+        return robot.points_of_feet().into_iter().map(|points| vec![None; points]).collect();
     };
-    let poses = body_poses(&TREE, &joints);
-    std::array::from_fn(|foot| {
-        let pose = &poses[FEET[foot]];
-        std::array::from_fn(|corner| {
-            is_down(contacts[foot][corner]).then(|| pose.transform_point(corners[corner]).xy())
-        })
-    })
+    let of_feet = robot.feet.iter().zip(contacts).map(|(foot, states)| {
+        let pose = &poses[foot.body];
+        let place = |(point, state): (&crate::robot::FootPoint, &ContactState)| {
+            is_down(*state).then(|| pose.transform_point(point.at).xy())
+        };
+        foot.points.iter().zip(states).map(place).collect()
+    });
+    of_feet.collect()
 }

@@ -40,7 +40,7 @@ impl Footing {
 
     fn set(self, scene: &mut Scene) {
         if let (Self::Sole(sole), Feet::Floor { outline, .. }) = (self, &mut scene.feet) {
-            *outline = sole;
+            *outline = Some(sole);
         }
     }
 }

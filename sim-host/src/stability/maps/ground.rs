@@ -14,11 +14,10 @@
 //! to stand on its soles at all is asked in [`super::landing`].
 
 use crate::record::Sample;
-use crate::scene::{Feet, Outline, Scene};
+use crate::robot::Robot;
+use crate::scene::{Feet, Scene};
 use crate::stability::loop_limits::{Criterion, Loop, play};
 use nalgebra::Vector3;
-use surefoot::dynamics::{body_poses, joint_poses};
-use surefoot::model::robots::biped::{FEET, TREE};
 
 /// `√(z/g)` of a body 1 m above the ground, in which a fall grows by a factor e, s.
 pub(super) const FALLING_S: f64 = 0.32;
@@ -38,7 +37,7 @@ struct Asked {
 /// One run with held feet.
 pub fn should_stand(scene: &Scene, criterion: &Criterion) -> bool {
     let floor = match &scene.feet {
-        Feet::Floor { outline, floor } => Some((*outline, floor.static_friction)),
+        Feet::Floor { floor, .. } => Some((scene.robot(), floor.static_friction)),
         Feet::Welded {} => None,
     };
     let mut held = scene.clone();
@@ -48,9 +47,9 @@ pub fn should_stand(scene: &Scene, criterion: &Criterion) -> bool {
     if run.failure.is_some() || !criterion.is_settled(&run.samples, &held.set_point) {
         return false;
     }
-    let Some((outline, friction)) = floor else { return true };
+    let Some((robot, friction)) = floor else { return true };
     let asked: Option<Vec<Asked>> =
-        run.samples.iter().map(|sample| Asked::of(sample, outline)).collect();
+        run.samples.iter().map(|sample| Asked::of(sample, &robot)).collect();
     let window = (FALLING_S * scene.controller.rate_hz).round().max(1.0) as usize;
     // Runs that are shorter than the window are judged as a whole.
     asked.is_some_and(|asked| {
@@ -73,8 +72,8 @@ fn is_given(some: &[Asked], friction: f64) -> bool {
 
 impl Asked {
     /// `None` for positions that are no configuration.
-    fn of(sample: &Sample, outline: Outline) -> Option<Self> {
-        let poses = body_poses(&TREE, &joint_poses(&TREE, &sample.positions).ok()?);
+    fn of(sample: &Sample, robot: &Robot) -> Option<Self> {
+        let poses = robot.tree.body_poses(&sample.positions).ok()?;
         let body = &poses[0];
         let [fx, fy, fz, tx, ty, tz] = sample.desired_wrench;
         let force = body.rotation * Vector3::new(fx, fy, fz);
@@ -82,14 +81,14 @@ impl Asked {
         let mut asked =
             Self { force, moment: torque + body.position.cross(&force), ..Self::default() };
         for (link, pose) in poses.iter().enumerate().skip(1) {
-            let weight = -TREE.gravity() * TREE.body_mass(link).unwrap_or(0.0);
+            let weight = -robot.tree.gravity() * robot.tree.body_mass(link);
             asked.force += weight;
             asked.moment += pose.position.cross(&weight);
         }
         asked.soles = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
-        for foot in FEET {
-            for corner in outline.sole().corners() {
-                let at = poses[foot].transform_point(corner);
+        for foot in &robot.feet {
+            for point in &foot.points {
+                let at = poses[foot.body].transform_point(point.at);
                 for (ends, x) in asked.soles.iter_mut().zip([at.x, at.y]) {
                     *ends = [ends[0].min(x), ends[1].max(x)];
                 }

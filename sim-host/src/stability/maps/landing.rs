@@ -24,9 +24,10 @@ pub fn should_land(scene: &Scene) -> bool {
     let mut beginning = scene.clone();
     beginning.duration_s = BEGINNING_S;
     let (run, _) = play(&beginning, Loop::Bare);
+    let limits = &scene.robot().limits;
     let last_s = 0.5 * BEGINNING_S;
     run.failure.is_none()
         && run.progress.is_none_or(|progress| progress.split_steps <= MOST_SPLITS)
-        && !run.samples.iter().any(runs_away)
+        && !run.samples.iter().any(|sample| runs_away(sample, limits))
         && run.samples.iter().any(|sample| sample.time_s >= last_s && has_flat_sole(sample))
 }

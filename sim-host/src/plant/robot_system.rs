@@ -1,12 +1,12 @@
-//! The biped as a system of the multibody simulator, and where its parts are in it.
+//! A legged robot as a system of the multibody simulator, and where its parts are in it.
 
-use super::biped_model::{BODIES, BipedModel, SMALL_BODIES};
+use super::robot_model::RobotModel;
 use super::{PlantState, StepFailure};
 use crate::multibody::{
     BodyState, Closing, Closure, Frame, Joint, Link, Reduced, Seat, System, SystemError, lumped,
-    merged, rerooted, states_of_tree, system_of_tree,
+    merged, rerooted,
 };
-use surefoot::model::robots::biped::{FEET, TREE};
+use crate::robot::{Robot, Start};
 
 /// Motors of one joint.
 #[derive(Clone, Copy, Debug)]
@@ -18,15 +18,15 @@ pub(super) struct Motors {
 
 /// The robot in a system, with what a plant adds to it, and how it starts.
 #[derive(Clone, Debug)]
-pub(super) struct BipedSystem {
+pub(super) struct RobotSystem {
     pub system: System,
     pub states: Vec<BodyState>,
     pub rates: Vec<BodyState>,
     /// Joints' motors in the order of torques.
     pub motors: Vec<Motors>,
-    /// The left and the right foot.
-    pub feet: [Foot; 2],
-    /// Link of §4.1's body 1, and its frame in it.
+    /// The foot of each leg.
+    pub feet: Vec<Foot>,
+    /// Link of the central body, and its frame in it.
     pub central: (usize, Frame),
     /// Potential energy of what is part of the world, J.
     pub still_energy: f64,
@@ -43,44 +43,45 @@ pub(super) enum Foot {
     Welded,
 }
 
-impl BipedSystem {
+impl RobotSystem {
     /// Afloat.
     ///
     /// # Errors
     /// [`StepFailure::Dynamics`] for no configuration.
-    pub fn new(model: BipedModel, state: &PlantState) -> Result<Self, StepFailure> {
-        let full = system_of_tree(&TREE)?;
-        let (states, rates) = states_of_tree(&TREE, &state.positions, &state.velocities)?;
+    pub fn new(robot: &Robot, model: RobotModel, state: &PlantState) -> Result<Self, StepFailure> {
+        let Start { system: full, frames, states, rates } =
+            robot.tree.start(&state.positions, &state.velocities)?;
         let tree = |link| Seat::Tree { link, is_reversed: false };
-        if model == BipedModel::Full {
+        if model == RobotModel::Full {
             return Ok(Self {
                 system: full,
                 states,
                 rates,
-                motors: (1..BODIES).map(|link| Motors { seat: tree(link), count: 1 }).collect(),
-                feet: FEET.map(|foot| Foot::Free(foot, Frame::IDENTITY)),
-                central: (0, Frame::IDENTITY),
+                motors: (1..robot.tree.bodies())
+                    .map(|link| Motors { seat: tree(link), count: 1 })
+                    .collect(),
+                feet: robot
+                    .feet
+                    .iter()
+                    .map(|foot| Foot::Free(foot.body, frames[foot.body]))
+                    .collect(),
+                central: (0, frames[0]),
                 still_energy: 0.0,
             });
         }
-        let reduced = lumped(&full, &SMALL_BODIES)?;
-        let [left, right, central] = [FEET[0], FEET[1], 0].map(|link| carried(&reduced, link));
-        let (left, right) = (left?, right?);
+        let reduced = lumped(&full, robot.small_bodies)?;
+        let free = |foot: &crate::robot::Foot| {
+            carried(&reduced, foot.body).map(|(link, frame)| Foot::Free(link, frame))
+        };
+        let feet = robot.feet.iter().map(free).collect::<Result<Vec<_>, _>>()?;
+        let central = carried(&reduced, 0);
         let system = reduced.system.clone();
         let count = |link: usize| 6 - system.links()[link].joint.constraints();
         let motors = (1..system.links().len())
             .map(|link| Motors { seat: tree(link), count: count(link) })
             .collect();
         let (states, rates) = reduced.start(&states, &rates);
-        Ok(Self {
-            motors,
-            system,
-            states,
-            rates,
-            feet: [Foot::Free(left.0, left.1), Foot::Free(right.0, right.1)],
-            central: central?,
-            still_energy: 0.0,
-        })
+        Ok(Self { motors, system, states, rates, feet, central: central?, still_energy: 0.0 })
     }
 
     /// With a free body as the last link.
@@ -105,7 +106,10 @@ impl BipedSystem {
     /// # Errors
     /// A [`SystemError`].
     pub fn on_still_feet(self) -> Result<Self, SystemError> {
-        let [Foot::Free(left, _), Foot::Free(right, _)] = self.feet else { return Ok(self) };
+        let [Foot::Free(left, _), Foot::Free(right, _)] = self.feet[..] else {
+            let what = "two feet that are held, no more and no fewer,";
+            return Err(SystemError::Unsupported { link: self.central.0, what });
+        };
         let held = [left, right].map(|foot| (foot, self.states[foot]));
         // The first joint of the right leg.
         let Seat::Tree { link: hip, .. } = self.motors[self.motors.len() / 2].seat else {
@@ -151,7 +155,7 @@ impl BipedSystem {
             _ => Foot::Welded,
         };
         let half = motors.len() / 2;
-        let feet = [foot(left, &motors[half - 1]), foot(right, &motors[motors.len() - 1])];
+        let feet = vec![foot(left, &motors[half - 1]), foot(right, &motors[motors.len() - 1])];
         let (central, frame) = link(turned.links[self.central.0])?;
         Ok(Self {
             states,
