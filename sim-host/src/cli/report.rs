@@ -139,7 +139,7 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
     }
     let peaks = Peaks::of(&run.samples);
     if let Some((joint, peak)) = peaks.as_ref().and_then(|peaks| peaks.largest_joint(&robot)) {
-        writeln!(out, "  largest torque: {joint}, {:.1} N·m at {} s", peak.value, peak.time_s)?;
+        writeln!(out, "  largest torque: {joint}, {:.1} N·m at {:.3} s", peak.value, peak.time_s)?;
     }
     if let CutTorques { joint_ticks, first_s: Some(first) } = run.cut_torques {
         writeln!(out, "  torques cut to the motors' limits: {joint_ticks}, from {first} s on")?;
@@ -152,7 +152,7 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
         )?;
         if let Some(WorstLimit { limit, leg, joint, time_s, .. }) = &limits.worst {
             let joint = joint.map_or_else(String::new, |joint| format!(" of joint {joint}"));
-            write!(out, ", most of all: {limit}{joint}, {leg} leg, at {time_s} s")?;
+            write!(out, ", most of all: {limit}{joint}, {leg}, at {time_s:.3} s")?;
         }
         writeln!(out)?;
     }
