@@ -24,6 +24,28 @@ pub fn ignored_tests(file: &str) -> Step {
     cargo(["test", "--workspace", "--test", file, "--", "--ignored"])
 }
 
+/// How a program is built.
+#[derive(Clone, Copy)]
+pub enum Built {
+    /// As it ships: minutes.
+    Released,
+    /// Like the tests, from what these are built of.
+    WithTests,
+}
+
+/// Builds an example.
+///
+/// # Returns
+/// The path of the program.
+pub fn example(name: &str, built: Built) -> Result<PathBuf> {
+    let how: &[&str] = match built {
+        Built::Released => &["--release"],
+        Built::WithTests => &["--workspace", "--profile", "test"],
+    };
+    let build = cargo(["build", "--example", name]).args(how.iter().copied());
+    executables(build, [])?.into_iter().next().context("cargo has built no program")
+}
+
 /// The compiler that cargo uses here unless told otherwise.
 pub fn rustc<A: Into<OsString>>(arguments: impl IntoIterator<Item = A>) -> Step {
     Step::new(env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()), arguments)

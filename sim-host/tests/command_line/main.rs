@@ -5,6 +5,7 @@ mod any_robot;
 mod charts;
 mod documented;
 mod files;
+mod firmware;
 mod importing;
 mod mechanisms;
 mod program;

@@ -17,7 +17,6 @@ use anyhow::{Context, Result, bail, ensure};
 use callgrind::Counts;
 use clap::Args;
 use serde::Serialize;
-use std::path::PathBuf;
 
 /// What to count, and how to say it.
 #[derive(Args)]
@@ -59,7 +58,7 @@ pub fn run(options: &Options) -> Result<()> {
         return Ok(());
     }
     let tool = provide_valgrind()?;
-    let program = build()?;
+    let program = workspace::example("instructions", workspace::Built::Released)?;
     let rustc = workspace::rustc(["--version", "--verbose"]).read()?;
     let of_rustc = |field: &str| rustc.lines().find_map(|line| line.strip_prefix(field));
     let mut report = Report {
@@ -106,14 +105,6 @@ pub(crate) fn provide_valgrind() -> Result<String> {
         )?;
     }
     version.read()
-}
-
-/// # Returns
-/// The path of the program whose instructions are counted.
-fn build() -> Result<PathBuf> {
-    let build = ["build", "--release", "--example", "instructions"];
-    let executables = workspace::executables(workspace::cargo(build), [])?;
-    executables.into_iter().next().context("cargo has built no program")
 }
 
 fn print(report: &Report) {

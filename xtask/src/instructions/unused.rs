@@ -1,7 +1,8 @@
 //! What a scene does not have costs nothing: of the code of such features not one instruction is executed.
 
 use super::callgrind::Counts;
-use super::{build, provide_valgrind};
+use super::provide_valgrind;
+use crate::workspace;
 use anyhow::{Result, ensure};
 
 /// Source files of features that scenes may be without.
@@ -39,7 +40,7 @@ const WORKLOADS: [(&str, &[&str]); 6] = [
 /// What was shown.
 pub fn nothing_unused_runs() -> Result<String> {
     provide_valgrind()?;
-    let program = build()?;
+    let program = workspace::example("instructions", workspace::Built::Released)?;
     let mut failures = Vec::<String>::new();
     for (workload, has) in WORKLOADS {
         let counts = Counts::of_call(&program, workload)?;
