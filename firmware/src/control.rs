@@ -22,6 +22,7 @@ pub static LIMITS: SafetyLimits<f32, LEGS> = biped::LIMITS.to_f32();
 pub const PERIOD: f32 = 1e-3;
 
 /// What the application asks of the next tick.
+#[expect(clippy::large_enum_variant, reason = "its queues are static, and there is no heap")]
 pub enum Order {
     /// New constants; in standby only.
     Configure(Settings),
@@ -117,6 +118,10 @@ pub struct Control {
 
 impl Control {
     /// In standby, with the gains of the experiments, for ticks [`PERIOD`] apart.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "each is handed over once, to be owned by the tick"
+    )]
     pub fn new(
         supervisor: Supervisor<f32, LEGS>,
         counter: Counter,
