@@ -40,7 +40,7 @@
 //! let next = solve(&program, &mut active, &settings)?;
 //! assert_eq!(next.changes, 0);
 //!
-//! // A budget is kept; what is broken is told, and the next call goes on.
+//! // A budget is kept; what is broken is reported, and the next call goes on.
 //! let hurried = Settings { work: 20, ..settings };
 //! let answer = solve(&program, &mut ActiveRows::<f64, 2>::new(), &hurried)?;
 //! assert_eq!(answer.status, Status::BudgetSpent);

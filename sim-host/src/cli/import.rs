@@ -133,7 +133,7 @@ pub(super) fn run(options: &Options) -> ExitCode {
     say(&said, ExitCode::SUCCESS)
 }
 
-/// A scene in which the robot stands on its legs, everything else locked; or why there is none.
+/// A scene in which the robot stands on its legs, everything else locked; or why no such scene exists.
 fn standing(path: &Path, how: &ImportOptions, gone: &[(String, f64)]) -> Result<String, String> {
     let legs_only = ImportOptions { legs_only: true, ..how.clone() };
     let imported = import(path, &legs_only).map_err(|error| error.to_string())?;

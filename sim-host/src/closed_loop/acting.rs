@@ -88,7 +88,7 @@ impl Motors {
         &self.mean
     }
 
-    /// Where the torques are that were asked for during the step that is so many steps `back`.
+    /// Where the torques are that were commanded for the step that is so many steps `back`.
     fn at(&self, step: usize, back: usize) -> usize {
         debug_assert!(step < self.steps_per_tick);
         let ticks = (back + self.steps_per_tick - 1 - step) / self.steps_per_tick;

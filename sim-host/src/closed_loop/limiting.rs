@@ -77,7 +77,7 @@ impl<T: Real, const LEGS: usize> Limiting<T, LEGS> {
         if let Some(motors) = scene.acting.torque_limits_nm {
             torques = torques.map(|leg| std::array::from_fn(|k| leg[k].min(motors[k])));
         }
-        let soles = robot.soles().expect("the scene's check has asked for soles");
+        let soles = robot.soles().expect("the scene's check requires soles");
         let soles: [Sole<T>; LEGS] = std::array::from_fn(|leg| counted_on(&soles[leg]));
         let limits = WrenchLimits::new(model, &soles, ground, &torques.map(|leg| leg.map(T::of)))
             .expect("a checked floor, and a robot with limits");

@@ -10,7 +10,7 @@ pub(super) struct ExplicitState<const NQ: usize, const NV: usize> {
 }
 
 impl<const NQ: usize, const NV: usize> ExplicitState<NQ, NV> {
-    /// The same numbers; those that a state of another robot has not are none, which the first step refuses.
+    /// The same numbers; a number that a state of another robot lacks is NaN, which the first step refuses.
     pub fn of(state: &PlantState) -> Self {
         let at = |all: &[f64], i: usize| all.get(i).copied().unwrap_or(f64::NAN);
         Self {

@@ -44,7 +44,7 @@ pub enum NoLeggedRobot {
     /// Gravity has another direction.
     #[error("gravity along −z, of more than 0; this one's is {0:?} m/s²")]
     Gravity([f64; 3]),
-    /// A limit is none, or the supervisor's arithmetic cannot hold it.
+    /// A number cannot be a limit, or the supervisor's arithmetic cannot hold it.
     #[error("limits that a supervisor can hold; here {0}")]
     Limits(String),
     /// Core refuses it.

@@ -151,7 +151,7 @@ impl SizedTree {
     }
 }
 
-/// As many numbers as a tree has; those that are not there are none, which core refuses.
+/// As many numbers as a tree has; a missing one is NaN, which core refuses.
 fn sized<const N: usize>(numbers: &[f64]) -> [f64; N] {
     std::array::from_fn(|i| numbers.get(i).copied().unwrap_or(f64::NAN))
 }

@@ -39,7 +39,7 @@ pub(super) fn height(robot: &Robot, angles: &[f64]) -> f64 {
     on_floor(robot, angles, Quaternion::identity()).positions[2]
 }
 
-/// The points of each foot in the world; none for what is no configuration.
+/// The points of each foot in the world; empty where the state is not a configuration.
 fn points(robot: &Robot, state: &PlantState) -> Vec<Vec<Vector3<f64>>> {
     let poses = robot.tree.body_poses(&state.positions).unwrap_or_default();
     let of_foot = |foot: &Foot| {

@@ -1,4 +1,4 @@
-//! What a scene asks of its robot: that it has what it is told to use, and reaches where it is held.
+//! What a scene asks of its robot: that it has what the scene uses, and reaches where it is held.
 
 use super::check::wrong;
 use super::{Feet, ModelChoice, Scene, SceneError};
@@ -7,7 +7,7 @@ use crate::robot::LEG;
 use nalgebra::Vector3;
 use surefoot::spatial::Quaternion;
 
-/// What a robot from a file cannot have, as it is told of the biped only.
+/// What a robot from a file cannot have, as only the biped has it.
 pub(super) fn of_file(scene: &Scene) -> Result<(), SceneError> {
     if scene.robot.is_none() {
         return Ok(());

@@ -126,7 +126,7 @@ impl Default for Integrator {
     }
 }
 
-/// The robot's start, at rest. In a file its kind is told by whether the scene names a robot.
+/// The robot's start, at rest. In a file its kind follows from whether the scene names a robot.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Initial {

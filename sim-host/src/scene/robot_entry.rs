@@ -30,7 +30,7 @@ pub struct RobotEntry {
     loaded: Loaded,
 }
 
-/// The robot that was read; equal robots are told by their content.
+/// The robot that was read; robots are compared by their content.
 #[derive(Clone, Debug, Default)]
 struct Loaded(Option<SharedRobot>);
 

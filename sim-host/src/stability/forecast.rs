@@ -28,8 +28,8 @@
 //! consists of `T/(n h)` stretches as long as a probe of `n` steps, so that one run in ten fails once the share
 //! of probes that fail has reached `0.1 · n h/T`. Long runs in short steps bear none of the probed states to
 //! fail, a pendulum of thirty steps some. A motion that loses energy comes to rest, and passes each of its
-//! states once, whatever the step: it bears a state at which a corner meets the floor just so, but no two in a
-//! row.
+//! states once, whatever the step: one state may fail alone, where a corner meets the floor just so, but no two in
+//! a row.
 //!
 //! The step foretold is the shortest of the three, times a share below 1.
 //!
@@ -100,8 +100,9 @@ const STEPS_A_STATE: usize = 12;
 /// Of the step at which probes begin to fail. A run at that step is on a motion of its own, with other
 /// extremes, and looks at far more states than the forecast does: what it meets is a little faster.
 pub(super) const SHARE: f64 = 5.0 / 6.0;
-/// Of motions that lose energy, whose probes bear what happens at one state: the largest, in thirds, that leaves
-/// no forecast of the maps on the unsafe side.
+/// Of motions that lose energy, whose probes pass over what fails at one state alone: the largest, in thirds, that
+/// leaves no forecast of maps with five columns on the unsafe side. Of the chart's twenty, one is: a single step of
+/// contact that fails between shorter and longer ones that work.
 pub(super) const SHARE_OF_LOSSES: f64 = 2.0 / 3.0;
 /// Of methods that carry momentum across constraints along: it builds up for longer than any probe lasts. The
 /// largest that leaves no forecast of the catalogue on the unsafe side; random problems are the check.

@@ -3,7 +3,7 @@
 use crate::program::{folder, said, surefoot};
 use serde_json::Value;
 
-/// Experiment 1 from its report's side: balanced, and told what its ticks have cost.
+/// Experiment 1 from its report's side: balanced, with what its ticks have cost.
 #[test]
 #[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn the_target_balances() {

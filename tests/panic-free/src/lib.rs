@@ -18,6 +18,20 @@ use surefoot::spatial::{Quaternion, Twist};
 
 static ROBOT: LeggedRobot<f32, 2> = LeggedRobot::new(&biped::TREE).to_f32();
 
+/// A robot at rest on bent legs that is to stay there.
+#[inline(always)]
+fn crouching() -> (RobotState<f32, 2>, Reference<f32>) {
+    let position = Vector3::new(0.0, 0.0, 1.035);
+    let state = RobotState {
+        position,
+        orientation: Quaternion::identity(),
+        velocity: Twist::zero(),
+        joint_angles: [[0.0, 0.698, 0.0, -1.352, 0.0, 0.654]; 2],
+        joint_rates: [[0.0; 6]; 2],
+    };
+    (black_box(state), black_box(Reference::at_rest(position, Quaternion::identity())))
+}
+
 /// One tick in single precision of a controller of whose robot, gains, form, limits, state and
 /// reference the optimiser knows nothing but the types.
 #[inline(always)]
@@ -30,15 +44,7 @@ pub fn opaque_tick() {
         singularity: black_box(0.01),
         foot_limits: black_box(FootLimits::new(0.0, Some(0.3), Some(sole)).ok()),
     };
-    let position = Vector3::new(0.0, 0.0, 1.035);
-    let state = black_box(RobotState {
-        position,
-        orientation: Quaternion::identity(),
-        velocity: Twist::zero(),
-        joint_angles: [[0.0, 0.698, 0.0, -1.352, 0.0, 0.654]; 2],
-        joint_rates: [[0.0; 6]; 2],
-    });
-    let reference = black_box(Reference::at_rest(position, Quaternion::identity()));
+    let (state, reference) = crouching();
     let _ = black_box(tick(&controller, &state, &reference));
 }
 
@@ -56,15 +62,7 @@ pub fn opaque_limited_tick() {
     let torques = black_box([[200.0; 6]; 2]);
     let Ok(limits) = WrenchLimits::new(&ROBOT, &[sole; 2], ground, &torques) else { return };
     let limits = black_box(limits);
-    let position = Vector3::new(0.0, 0.0, 1.035);
-    let state = black_box(RobotState {
-        position,
-        orientation: Quaternion::identity(),
-        velocity: Twist::zero(),
-        joint_angles: [[0.0, 0.698, 0.0, -1.352, 0.0, 0.654]; 2],
-        joint_rates: [[0.0; 6]; 2],
-    });
-    let reference = black_box(Reference::at_rest(position, Quaternion::identity()));
+    let (state, reference) = crouching();
     let contacts = black_box([true; 2]);
     let rows = black_box([(3_u8, 1.0_f32); 20]);
     let mut memory = black_box(LimitMemory::of(rows));

@@ -277,7 +277,7 @@ fn where_something_binds_it_is_as_good_as_clarabels_answer() {
 }
 
 /// With no foot on the ground the tick is inverse dynamics of the robot in flight, its joints coming to
-/// rest; with one, that one bears what is asked for, and the other leg's torques are as in flight.
+/// rest; with one, that one carries the desired wrench, and the other leg's torques are as in flight.
 #[test]
 fn feet_in_the_air_carry_nothing() {
     let (controller, limits) = (Controller::new(&ROBOT), limits(&ROBOT));

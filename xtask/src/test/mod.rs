@@ -98,7 +98,7 @@ pub fn run(options: &Options) -> Result<()> {
         }
     }
     if options.wants(Stage::Documented) {
-        record.stage("documented", || documented::run("documented"));
+        record.stage("documented", documented::run);
     }
     record.finish()
 }

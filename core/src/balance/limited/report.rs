@@ -9,7 +9,7 @@ use crate::spatial::Wrench;
 /// A command within limits, and what they did to it.
 #[derive(Clone, Copy, Debug)]
 pub struct LimitedCommand<T, const LEGS: usize> {
-    /// As of [`tick`](crate::balance::tick). Its foot wrenches are those asked for within the limits,
+    /// As of [`tick`](crate::balance::tick). Its foot wrenches are those within the limits,
     /// its desired wrench is the one before them.
     pub command: Command<T, LEGS>,
     /// What binds, and what is given up.

@@ -16,10 +16,10 @@ use crate::qp::{ActiveRows, RowSet, Search, Settings, solve};
 use crate::spatial::{Twist, Wrench};
 
 /// [`tick`](crate::balance::tick) within limits; `contacts` says which feet touch the ground (all, where
-/// nobody knows). Foot limits of the controller are not looked at: nothing beyond limits is asked for.
+/// nobody knows). Foot limits of the controller are not looked at: nothing beyond limits is required of a foot.
 ///
 /// # Errors
-/// A [`Fault`] as of [`tick`](crate::balance::tick). Limits that bind are none.
+/// A [`Fault`] as of [`tick`](crate::balance::tick). A limit that binds is not a fault.
 ///
 /// # Cost
 /// Where nothing binds, a fifth more than [`tick`](crate::balance::tick); else, the stages before it once
@@ -124,7 +124,7 @@ struct Standing<'a, T, const LEGS: usize> {
     contacts: &'a [bool; LEGS],
 }
 
-/// The printed split of what is asked for, and whether it breaks a limit.
+/// The printed split of the desired wrench, and whether it breaks a limit.
 struct Asked<T, const LEGS: usize> {
     loads: Loads<T, LEGS>,
     /// On the feet, frame 1's axes.
