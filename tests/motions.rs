@@ -59,8 +59,7 @@ pub fn biped_in_flight() -> MotionStart {
 }
 
 /// Springs and dampers that hold the standing biped's joints.
-pub const HOLDING: JointLaw =
-    JointLaw { stiffness: 3000.0, rest: 0.0, damping: 100.0, stops: None };
+pub const HOLDING: JointLaw = JointLaw { stiffness: 3000.0, damping: 100.0, ..JointLaw::NONE };
 
 /// The biped on both feet, eight points in contact, joints held by springs.
 pub fn biped_on_feet() -> MotionStart {

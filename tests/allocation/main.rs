@@ -67,16 +67,27 @@ fn no_step_allocates() {
             block: scene.block.as_ref().map(Block::thrown),
             ..Additions::default()
         };
-        let noisy = Sensing { encoder_counts: 4096, gyroscope_noise: 1e-4, ..Sensing::default() };
-        let mut sensors = Sensors::new(&noisy, 1e-3, start.joints());
-        let weak =
-            Acting { delay_s: 3.5e-3, torque_limits_nm: Some([50.0; 6]), ..Acting::default() };
+        let noisy = Sensing {
+            encoder_counts: 4096,
+            gyroscope_noise: 1e-4,
+            backlash_deg: 0.1,
+            imu_tilt_deg: [0.1, 0.0, 0.0],
+            ..Sensing::default()
+        };
+        let mut sensors = Sensors::new(&noisy, 1e-3, &robot.columns);
+        let weak = Acting {
+            delay_s: 3.5e-3,
+            torque_limits_nm: Some([50.0; 6]),
+            lag_s: 1e-3,
+            ..Acting::default()
+        };
         let mut motors = Motors::new(&weak, 1e-3, 1, start.joints());
         count("sensors and motors", || {
             let seen = sensors.read(&start);
             let torques: [f64; 12] = std::array::from_fn(|i| 100.0 * seen.positions[7 + i]);
             motors.command(&torques, 0.0);
             std::hint::black_box(motors.over_step(0));
+            motors.advance(0);
         });
         let mut plant = match &scene.feet {
             Feet::Floor { floor, .. } => {

@@ -1,5 +1,6 @@
 //! From a controller's torques to what motors give: late, and not more than they can.
 
+use super::lag::{Lag, beyond};
 use crate::scene::Acting;
 use serde::Serialize;
 
@@ -21,6 +22,8 @@ pub struct CutTorques {
 pub struct Motors {
     /// N·m, one a joint.
     limits: Option<Vec<f64>>,
+    dead_zone: f64,
+    lag: Option<Lag>,
     steps_per_tick: usize,
     /// The delay in steps: whole ones, and the part of one that is left.
     whole: usize,
@@ -43,11 +46,14 @@ impl Motors {
         let whole = (delay + NO_PART).floor();
         let part = if delay - whole > NO_PART { delay - whole } else { 0.0 };
         let whole = whole as usize;
+        // One more than a whole delay spans: `later` is asked for where it counts nothing.
         let spanned = (whole + steps_per_tick) / steps_per_tick;
         Self {
             limits: acting
                 .torque_limits_nm
                 .map(|leg| leg.into_iter().cycle().take(joints).collect()),
+            dead_zone: acting.dead_zone_nm,
+            lag: (acting.lag_s > 0.0).then(|| Lag::new(acting.lag_s, step_s, joints)),
             steps_per_tick,
             whole,
             part,
@@ -62,7 +68,10 @@ impl Motors {
     pub fn command(&mut self, torques: &[f64], time_s: f64) {
         self.newest = (self.newest + 1) % self.torques.len();
         let given = &mut self.torques[self.newest];
-        given.iter_mut().zip(torques).for_each(|(given, torque)| *given = *torque);
+        let dead = self.dead_zone;
+        for (given, torque) in given.iter_mut().zip(torques) {
+            *given = if dead == 0.0 { *torque } else { beyond(*torque, dead) };
+        }
         if let Some(limits) = &self.limits {
             for (torque, limit) in given.iter_mut().zip(limits) {
                 if torque.abs() > *limit {
@@ -76,16 +85,34 @@ impl Motors {
 
     /// Mean torques over a plant step, the one that begins at the latest tick being 0.
     pub fn over_step(&mut self, step: usize) -> &[f64] {
-        let late = self.at(step, self.whole);
-        if self.part == 0.0 {
-            return &self.torques[late];
+        if self.part == 0.0 && self.lag.is_none() {
+            return &self.torques[self.at(step, self.whole)];
         }
-        let later = self.at(step, self.whole + 1);
+        self.find_command(step);
+        if let Some(lag) = &self.lag {
+            lag.over_step(&mut self.mean);
+        }
+        &self.mean
+    }
+
+    /// The mean command over a plant step.
+    fn find_command(&mut self, step: usize) {
+        let [late, later] = [self.whole, self.whole + 1].map(|back| self.at(step, back));
         let both = self.torques[late].iter().zip(&self.torques[later]);
         for (mean, (late, later)) in self.mean.iter_mut().zip(both) {
             *mean = (1.0 - self.part) * late + self.part * later;
         }
-        &self.mean
+    }
+
+    /// Goes on to the end of a plant step.
+    pub fn advance(&mut self, step: usize) {
+        if self.lag.is_none() {
+            return;
+        }
+        self.find_command(step);
+        if let Some(lag) = &mut self.lag {
+            lag.advance(&self.mean);
+        }
     }
 
     /// Where the torques are that were commanded for the step that is so many steps `back`.
@@ -107,9 +134,19 @@ impl Motors {
         [older, newer].concat()
     }
 
-    /// Goes on with torques on their way; `false` if they are of another delay.
-    pub(super) fn resume(&mut self, pending: &[Vec<f64>]) -> bool {
+    /// What lagging motors give now; nothing of others.
+    pub(super) fn lagging(&self) -> Option<Vec<f64>> {
+        self.lag.as_ref().map(|lag| lag.given.clone())
+    }
+
+    /// Goes on with torques on their way, and what lagging motors gave; `false` if they are of other motors.
+    pub(super) fn resume(&mut self, pending: &[Vec<f64>], lagging: Option<&[f64]>) -> bool {
         let joints = self.mean.len();
+        match (&mut self.lag, lagging) {
+            (None, None) => {}
+            (Some(lag), Some(given)) if given.len() == joints => lag.given.copy_from_slice(given),
+            _ => return false,
+        }
         let fits = pending.len() == self.torques.len()
             && pending.iter().all(|torques| torques.len() == joints);
         if fits {

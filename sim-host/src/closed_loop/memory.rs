@@ -7,8 +7,11 @@ use crate::scene::Scene;
 /// What they remember; `None` where all of them are ideal.
 pub(super) fn memory(scene: &Scene, sensors: &Sensors, motors: &Motors) -> Option<HardwareMemory> {
     let is_ideal = scene.sensing.is_ideal() && scene.acting.is_ideal();
-    (!is_ideal)
-        .then(|| HardwareMemory { encoder_counts: sensors.counts(), torques: motors.pending() })
+    (!is_ideal).then(|| HardwareMemory {
+        encoders: sensors.memory(),
+        torques: motors.pending(),
+        lagging: motors.lagging(),
+    })
 }
 
 /// Goes on with it at tick `first`; `false` if it is of other sensors or motors.
@@ -23,11 +26,12 @@ pub(super) fn remember(
         return scene.sensing.is_ideal() && scene.acting.is_ideal();
     };
     let joints = sensors.joints();
-    if memory.encoder_counts.as_ref().is_some_and(|counts| counts.len() != joints) {
+    if memory.encoders.as_ref().is_some_and(|encoders| !encoders.fits(joints)) {
         return false;
     }
-    sensors.skip(first, memory.encoder_counts.as_deref());
+    sensors.skip(first, memory.encoders.as_ref());
     // Before the first tick encoders have nothing to remember.
-    let same_encoders = scene.sensing.encoder_counts > 0 && first > 0;
-    same_encoders == memory.encoder_counts.is_some() && motors.resume(&memory.torques)
+    let same_encoders = sensors.has_encoders() && first > 0;
+    same_encoders == memory.encoders.is_some()
+        && motors.resume(&memory.torques, memory.lagging.as_deref())
 }

@@ -2,12 +2,15 @@
 
 mod acting;
 mod approximate;
+mod askew;
 mod cause;
 mod controller;
+mod encoders;
 mod errors;
 mod estimate;
 mod events;
 pub mod firmware;
+mod lag;
 mod limiting;
 mod memory;
 mod outcome;

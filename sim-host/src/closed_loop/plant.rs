@@ -10,12 +10,18 @@ use crate::scene::{Block, Feet, Outline, Scene};
 /// # Errors
 /// A [`StepFailure`] for a start that is no configuration, or what the model cannot do.
 pub fn plant(scene: &Scene) -> Result<Box<dyn Plant>, StepFailure> {
-    let (start, step) = (scene.initial.state(), scene.integrator.step_s);
+    let (start, step) = (scene.start(), scene.integrator.step_s);
     let robot = scene.robot();
-    let stops = scene.acting.joint_stops.map(|stops| stops.in_radians().to_vec());
+    let stops = scene.acting.stops(&robot);
     let block = scene.block.as_ref().map(Block::thrown);
     if scene.integrator.name == Method::Variational {
-        let additions = Additions { model: scene.rung().model, stops, block };
+        let additions = Additions {
+            model: scene.rung().model,
+            stops,
+            block,
+            planes: scene.terrain.planes(&robot, &start),
+            differences: scene.plant.differences(&robot),
+        };
         return Ok(Box::new(match &scene.feet {
             Feet::Floor { floor, .. } => {
                 Variational::on_floor(&robot, &start, step, *floor, &additions)?

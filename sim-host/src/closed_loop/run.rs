@@ -173,7 +173,7 @@ fn advance(
     let (mut state, mut contacts) = (PlantState::home(joints), PerPoint::new());
     let mut feet = Vec::with_capacity(robot.leg_count());
     let mut touched = scene.controller.torques_from == TorquesFrom::Start;
-    let mut sensors = Sensors::new(&scene.sensing, steps_per_tick as f64 * step, joints);
+    let mut sensors = Sensors::new(&scene.sensing, steps_per_tick as f64 * step, &robot.columns);
     let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize, joints);
     let mut first = 0;
     if let Some(saved) = from {
@@ -248,6 +248,7 @@ fn advance(
             plant
                 .step(step, motors.over_step(number), scene.push(begun, end))
                 .map_err(|failure| step_failure(time, failure))?;
+            motors.advance(number);
             run.steps += 1;
             let made = (first * steps_per_tick + run.steps) as f64 * step;
             if plant.read_contacts(&mut contacts) {

@@ -136,7 +136,7 @@ pub(super) fn kinetic(system: &System, configuration: &[f64], velocity: &[f64]) 
 pub(super) fn dissipates_nothing(system: &System) -> bool {
     system.ground().is_none()
         && system.strikers().is_empty()
-        && system.laws().iter().all(|(_, law)| law.damping == 0.0)
+        && system.laws().iter().all(|(_, law)| !law.dissipates())
 }
 
 /// What [`Moving::conserved`] tells of bodies; their rates are asked for where these are free.

@@ -64,6 +64,6 @@ pub(super) fn split(x: &BodyState) -> ([f64; 3], [f64; 4]) {
     ([a, b, c], [s, i, j, k])
 }
 
-fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+pub(super) fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

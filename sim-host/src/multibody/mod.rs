@@ -35,7 +35,7 @@ pub use closure::{Closing, ClosingMotors, Closure, ConstraintFunction};
 pub use constrained::{ConstrainedSimulation, Correction, Equations, SingularJoint, TreeEquations};
 pub use gimbal::Gimbal;
 pub use joint::{Joint, JointConstraint, MOST_CONSTRAINTS, Rows};
-pub use joint_law::{JointLaw, Stops};
+pub use joint_law::{CREEP, JointLaw, Stops};
 pub use planar::{NotPlanar, PlanarCheckpoint, PlanarError, PlanarSimulation, Plane};
 pub use recursive::{Checkpoint, Simulation, StepForecast};
 pub use reduction::{Frame, Reduced, Rerooted, Seat, Side, lumped, merged, rerooted};

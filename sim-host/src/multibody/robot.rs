@@ -2,6 +2,7 @@
 
 use super::body::{Body, BodyState};
 use super::joint::{Joint, JointConstraint};
+use super::joint_law::JointLaw;
 use super::system::{Link, System};
 use super::system_error::SystemError;
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, UnitQuaternion, Vector3};
@@ -44,6 +45,7 @@ pub fn principal_system_of_tree<const N: usize, const NQ: usize, const NV: usize
     let mut home = home_poses(tree)?;
     let mut axes = Vec::with_capacity(N);
     let mut links = Vec::with_capacity(N);
+    let mut rotors = Vec::new();
     for k in 0..N {
         let unsupported = |what| SystemError::Unsupported { link: k, what };
         // k < N, so that both are there.
@@ -56,9 +58,8 @@ pub fn principal_system_of_tree<const N: usize, const NQ: usize, const NV: usize
         }
         axes.push(turned);
         let diagonal = shape.inertia.diagonal();
-        // Left out, it would be a lighter robot without a word.
         if shape.rotor_inertia != 0.0 {
-            return Err(unsupported("a joint without rotor inertia"));
+            rotors.push((k, shape.rotor_inertia));
         }
         let inboard = tree.inboard(k);
         let of_inboard = inboard.map_or(Pose::identity(), |i| home[i]);
@@ -85,7 +86,11 @@ pub fn principal_system_of_tree<const N: usize, const NQ: usize, const NV: usize
             body: Body { mass: shape.mass, inertia: diagonal.into() },
         });
     }
-    Ok((System::new(links, -gravity.z)?, axes))
+    let system = System::new(links, -gravity.z)?;
+    let with_rotor = |system: System, (link, rotor_inertia)| {
+        system.with_law(link, JointLaw { rotor_inertia, ..JointLaw::default() })
+    };
+    Ok((rotors.into_iter().try_fold(system, with_rotor)?, axes))
 }
 
 /// Turns a body's frame along its principal axes; gives these, seen from the frame before.

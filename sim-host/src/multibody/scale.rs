@@ -18,6 +18,7 @@
 //! only the forces of floors do not, of which no more than round-off counts.
 
 use super::stepping::ROUND_OFF;
+use super::system::System;
 use nalgebra::Vector3;
 
 /// Share of what is added up in the equations that counts as motion: with the tolerance of Newton's method, 1e-10,
@@ -83,6 +84,12 @@ impl Composite {
 #[inline]
 pub(super) fn away(p: &Vector3<f64>) -> f64 {
     p.x.abs() + p.y.abs() + p.z.abs()
+}
+
+/// Of the rotors in the joint of a link, kg·m², or kg.
+pub(super) fn rotor_inertia(system: &System, link: usize) -> f64 {
+    let own = system.laws().iter().filter(|(k, _)| *k == link);
+    own.map(|(_, law)| law.rotor_inertia).sum()
 }
 
 /// A moment of inertia about some axis as it is measured by, next to the largest one.

@@ -7,7 +7,7 @@ use super::joint::{Joint, JointConstraint};
 use super::joint_law::JointLaw;
 use super::striker::Striker;
 use super::system_error::SystemError;
-use crate::contact::{Floor, Switching};
+use crate::contact::{Floor, GroundPlane, Switching};
 
 /// A body with the joint that holds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +39,7 @@ pub struct System {
     gimbals: Vec<(usize, Gimbal)>,
     ground: Option<(Floor, Switching)>,
     sites: Vec<Site>,
+    terrain: Vec<(usize, GroundPlane)>,
     closures: Vec<Closure>,
     closing_motors: Vec<ClosingMotors>,
     strikers: Vec<Striker>,
@@ -69,6 +70,7 @@ impl System {
             gimbals: Vec::new(),
             ground: None,
             sites: Vec::new(),
+            terrain: Vec::new(),
             closures: Vec::new(),
             closing_motors: Vec::new(),
             strikers: Vec::new(),
@@ -85,7 +87,7 @@ impl System {
         Ok(Self { links, gravity, ..self })
     }
 
-    /// With a spring, damping or stops in the joint of a link.
+    /// With a spring, damping, stops or a rotor in the joint of a link.
     ///
     /// # Errors
     /// [`SystemError::Law`].
@@ -141,6 +143,19 @@ impl System {
         sites.sort_by_key(|site| site.link);
         self.ground = Some((floor, switching));
         self.sites = sites;
+        Ok(self)
+    }
+
+    /// With a plane of its own under the points of a link, in place of z = 0.
+    ///
+    /// # Errors
+    /// [`SystemError::Terrain`] for a link without such points, or with a plane already.
+    pub fn on_plane(mut self, link: usize, plane: GroundPlane) -> Result<Self, SystemError> {
+        let touches = self.sites.iter().any(|site| site.link == link);
+        if !touches || self.plane(link).is_some() {
+            return Err(SystemError::Terrain { link });
+        }
+        self.terrain.push((link, plane));
         Ok(self)
     }
 
@@ -227,6 +242,16 @@ impl System {
     /// Points that can touch the floor, by link.
     pub fn sites(&self) -> &[Site] {
         &self.sites
+    }
+
+    /// Links that stand on planes of their own.
+    pub fn terrain(&self) -> &[(usize, GroundPlane)] {
+        &self.terrain
+    }
+
+    /// The plane under the points of a link, where it is not z = 0.
+    pub(super) fn plane(&self, link: usize) -> Option<GroundPlane> {
+        self.terrain.iter().find(|(k, _)| *k == link).map(|(_, plane)| *plane)
     }
 
     /// Joints that close loops.

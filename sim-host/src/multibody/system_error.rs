@@ -67,6 +67,12 @@ pub enum SystemError {
         /// Which one.
         site: usize,
     },
+    /// A plane under a link without contact sites, or a second one.
+    #[error("link {link} has no contact sites, or stands on another plane already")]
+    Terrain {
+        /// Which one.
+        link: usize,
+    },
     /// A striker is no free body after all others, or a number of it is not finite.
     #[error(
         "striker {striker}: it must be a floating link after all that do not strike, with nothing on it, and \

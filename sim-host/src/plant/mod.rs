@@ -1,6 +1,7 @@
 //! Plants: robots that move under torques.
 
 mod configuration;
+mod differences;
 mod energies;
 mod explicit_state;
 mod joint_stops;
@@ -13,6 +14,7 @@ mod variational;
 mod welded;
 
 pub use configuration::retract;
+pub use differences::{BodyDifference, Differences, JointDifference};
 pub use on_floor::OnFloor;
 pub use robot_model::RobotModel;
 pub use struck::Struck;

@@ -1,12 +1,13 @@
 //! A legged robot as a system of the multibody simulator, and where its parts are in it.
 
+use super::differences::Differences;
 use super::robot_model::RobotModel;
 use super::{PlantState, StepFailure};
 use crate::multibody::{
     BodyState, Closing, Closure, Frame, Joint, Link, Reduced, Seat, System, SystemError, lumped,
     merged, rerooted,
 };
-use crate::robot::{Robot, Start};
+use crate::robot::{Passive, Robot, Start};
 
 /// Motors of one joint.
 #[derive(Clone, Copy, Debug)]
@@ -44,31 +45,24 @@ pub(super) enum Foot {
 }
 
 impl RobotSystem {
-    /// Afloat.
+    /// Afloat; what differs from the model is in the full one only.
     ///
     /// # Errors
-    /// [`StepFailure::Dynamics`] for no configuration.
-    pub fn new(robot: &Robot, model: RobotModel, state: &PlantState) -> Result<Self, StepFailure> {
-        let Start { system: full, frames, states, rates } =
-            robot.tree.start(&state.positions, &state.velocities)?;
-        let tree = |link| Seat::Tree { link, is_reversed: false };
+    /// [`StepFailure::Dynamics`] for no configuration, [`StepFailure::System`] for what no body or joint can be.
+    pub fn new(
+        robot: &Robot,
+        model: RobotModel,
+        state: &PlantState,
+        differences: &Differences,
+    ) -> Result<Self, StepFailure> {
+        let start = robot.tree.start(&state.positions, &state.velocities)?;
         if model == RobotModel::Full {
-            return Ok(Self {
-                system: full,
-                states,
-                rates,
-                motors: (1..robot.tree.bodies())
-                    .map(|link| Motors { seat: tree(link), count: 1 })
-                    .collect(),
-                feet: robot
-                    .feet
-                    .iter()
-                    .map(|foot| Foot::Free(foot.body, frames[foot.body]))
-                    .collect(),
-                central: (0, frames[0]),
-                still_energy: 0.0,
-            });
+            let is_model = differences.is_none() && robot.passive.iter().all(Passive::is_none);
+            let start = if is_model { start } else { differences.make(robot, start)? };
+            return Ok(Self::of_start(robot, start));
         }
+        let Start { system: full, states, rates, .. } = start;
+        let tree = |link| Seat::Tree { link, is_reversed: false };
         let reduced = lumped(&full, robot.small_bodies)?;
         let free = |foot: &crate::robot::Foot| {
             carried(&reduced, foot.body).map(|(link, frame)| Foot::Free(link, frame))
@@ -82,6 +76,21 @@ impl RobotSystem {
             .collect();
         let (states, rates) = reduced.start(&states, &rates);
         Ok(Self { motors, system, states, rates, feet, central: central?, still_energy: 0.0 })
+    }
+
+    /// With all bodies, as they start.
+    fn of_start(robot: &Robot, Start { system, frames, states, rates }: Start) -> Self {
+        let motor = |link| Motors { seat: Seat::Tree { link, is_reversed: false }, count: 1 };
+        let foot = |foot: &crate::robot::Foot| Foot::Free(foot.body, frames[foot.body]);
+        Self {
+            motors: (1..robot.tree.bodies()).map(motor).collect(),
+            feet: robot.feet.iter().map(foot).collect(),
+            central: (0, frames[0]),
+            still_energy: 0.0,
+            system,
+            states,
+            rates,
+        }
     }
 
     /// With a free body as the last link.

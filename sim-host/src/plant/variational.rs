@@ -1,12 +1,13 @@
 //! A legged robot on the symplectic simulator of chapter 5, with all its bodies or lumped: the default plant.
 
+use super::differences::Differences;
 use super::joint_stops::with_stops;
 use super::robot_model::RobotModel;
 use super::robot_system::{Foot, Motors, RobotSystem};
 use super::{
     BlockSample, Observation, PerPoint, Plant, PlantState, StepFailure, ThrownBlock, fill_contacts,
 };
-use crate::contact::{ContactState, Floor, Switching};
+use crate::contact::{ContactState, Floor, GroundPlane, Switching};
 use crate::integrators::Progress;
 use crate::multibody::{BodyState, Checkpoint, Frame, Seat, Simulation, Site, Stops, SystemError};
 use crate::robot::Robot;
@@ -22,6 +23,10 @@ pub struct Additions {
     pub stops: Option<Vec<Stops>>,
     /// A block that is thrown at it.
     pub block: Option<ThrownBlock>,
+    /// The ground under each foot; z = 0 under all if there are none.
+    pub planes: Vec<GroundPlane>,
+    /// What the robot has otherwise than the model; in the full one only.
+    pub differences: Differences,
 }
 
 /// A robot on a floor, or welded to it. Its step is that of its start.
@@ -66,6 +71,11 @@ impl Variational {
         let sites =
             of_feet.chain(of_block.map(|position| Site { link: block, position })).collect();
         made.system = made.system.on_floor(floor, Switching::WithinTheStep, sites)?;
+        for (foot, plane) in made.feet.iter().zip(&additions.planes) {
+            if let Foot::Free(link, _) = foot {
+                made.system = made.system.on_plane(*link, *plane)?;
+            }
+        }
         Self::new(h, made, robot.points_of_feet(), additions)
     }
 
@@ -114,6 +124,20 @@ impl Variational {
     /// The simulation.
     pub fn simulation(&self) -> &Simulation {
         &self.simulation
+    }
+
+    /// Links of the joints in the order of torques, of those that are hinges of the tree.
+    pub fn hinges(&self) -> Vec<usize> {
+        let hinge = |motors: &Motors| match motors.seat {
+            Seat::Tree { link, .. } if motors.count == 1 => Some(link),
+            _ => None,
+        };
+        self.motors.iter().filter_map(hinge).collect()
+    }
+
+    /// Link of the central body, and its frame in it.
+    pub fn central(&self) -> (usize, Frame) {
+        self.central
     }
 
     /// Velocity of the central body's link at its centre of mass and its angular velocity, world axes.
@@ -187,7 +211,8 @@ fn system(
     state: &PlantState,
     additions: &Additions,
 ) -> Result<RobotSystem, StepFailure> {
-    let mut made = RobotSystem::new(robot, additions.model, state)?;
+    let Additions { model, differences, .. } = additions;
+    let mut made = RobotSystem::new(robot, *model, state, differences)?;
     if additions.stops.is_some() && additions.model != RobotModel::Full {
         let what = "the full model, whose hinges can have stops,";
         return Err(SystemError::Unsupported { link: 1, what }.into());

@@ -92,6 +92,6 @@ impl Problem {
 /// Nothing dissipates, and no motor works.
 fn keeps_energy(scene: &MechanismScene, system: &System) -> bool {
     let is_still = scene.mechanism.torques().iter().all(|torque| *torque == 0.0);
-    let is_undamped = system.laws().iter().all(|(_, law)| law.damping == 0.0);
+    let is_undamped = system.laws().iter().all(|(_, law)| !law.dissipates());
     is_still && is_undamped && system.ground().is_none() && system.strikers().is_empty()
 }

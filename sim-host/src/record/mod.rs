@@ -13,7 +13,9 @@ pub use event::{Event, EventKind};
 pub use foxglove::{RecordFailure, write_mcap};
 pub use identity::MotionIdentity;
 pub use mechanism_csv::write_mechanism_csv;
-pub use saved::{HardwareMemory, MeasuredBefore, SavedMotion, SavedRun, SupervisorMemory};
+pub use saved::{
+    EncoderMemory, HardwareMemory, MeasuredBefore, SavedMotion, SavedRun, SupervisorMemory,
+};
 pub use settling::Settling;
 
 use crate::contact::ContactState;

@@ -52,10 +52,30 @@ pub enum SavedMotion {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HardwareMemory {
-    /// Whole counts of the encoders at the last tick, one a joint.
-    pub encoder_counts: Option<Vec<f64>>,
+    /// What encoders have read at the last tick.
+    pub encoders: Option<EncoderMemory>,
     /// Torques on their way to the motors, oldest first, one set a tick, N·m.
     pub torques: Vec<Vec<f64>>,
+    /// What lagging motors give, N·m; none of others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lagging: Option<Vec<f64>>,
+}
+
+/// What encoders have read at a tick, one a joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EncoderMemory {
+    /// Angles on the motors' side, rad.
+    pub angles: Vec<f64>,
+    /// What was read of them, rad.
+    pub read: Vec<f64>,
+}
+
+impl EncoderMemory {
+    /// Whether it is of so many joints.
+    pub fn fits(&self, joints: usize) -> bool {
+        self.angles.len() == joints && self.read.len() == joints
+    }
 }
 
 /// What a supervisor remembers of earlier ticks, leg by leg.

@@ -1,6 +1,6 @@
 //! The biped of §4.1 as one robot among others.
 
-use super::{Foot, FootPoint, LEG, Limits, Robot, SharedRobot, SizedTree};
+use super::{Foot, FootPoint, LEG, Limits, Passive, Robot, SharedRobot, SizedTree};
 use crate::multibody::Side;
 use crate::picture::Solid;
 use crate::scene::Outline;
@@ -97,6 +97,7 @@ fn made(outline: Outline) -> Robot {
         feet: LEGS.iter().zip(FEET).map(foot).collect(),
         shapes: shapes(&sole),
         small_bodies: &SMALL_BODIES,
+        passive: vec![Passive::default(); LEG * LEGS.len()],
         limits: Limits {
             joints: LIMITS.joints.as_flattened().to_vec(),
             damping: LIMITS.damping.as_flattened().to_vec(),

@@ -1,10 +1,12 @@
 //! A robot of a file as scenes take it: its tree, names, feet, limits, and what it looks like.
 
-use super::{Foot, FootPoint, LEG, Limits, MOST_LEGS, Robot, SizedTree, stance, with_tree};
+use super::{
+    Foot, FootPoint, LEG, Limits, MOST_LEGS, Passive, Robot, SizedTree, stance, with_tree,
+};
 use crate::picture::Solid;
 use nalgebra::{Matrix3, Vector3};
 use surefoot::model::TreeFault;
-use surefoot_robots::{Robot as FileRobot, RobotLink, core_links, legs};
+use surefoot_robots::{JointProperties, Robot as FileRobot, RobotLink, core_links, legs};
 
 /// Part of the height of the central body at the start, upright on its feet, below which it has fallen. The biped's
 /// is the same.
@@ -33,14 +35,6 @@ pub enum NoLeggedRobot {
         /// What is wrong.
         what: String,
     },
-    /// The simulator has no rotors in its joints.
-    #[error("joints without rotor inertia; that of {joint} is {inertia} kg·m²")]
-    Rotor {
-        /// Which.
-        joint: String,
-        /// kg·m²
-        inertia: f64,
-    },
     /// Gravity has another direction.
     #[error("gravity along −z, of more than 0; this one's is {0:?} m/s²")]
     Gravity([f64; 3]),
@@ -60,10 +54,6 @@ impl Robot {
     pub fn of_file(file: &FileRobot) -> Result<Self, NoLeggedRobot> {
         let links = file.links.len();
         let leg_count = legs(file).ok_or(NoLeggedRobot::Legs { links })?;
-        if let Some(link) = file.links.iter().find(|link| link.joint.properties.armature != 0.0) {
-            let (joint, inertia) = (link.joint.name.clone(), link.joint.properties.armature);
-            return Err(NoLeggedRobot::Rotor { joint, inertia });
-        }
         let [x, y, z] = file.gravity;
         if !(x == 0.0 && y == 0.0 && z < 0.0) {
             return Err(NoLeggedRobot::Gravity(file.gravity));
@@ -88,6 +78,7 @@ impl Robot {
             feet,
             tree,
             small_bodies: &[],
+            passive: file.links.iter().skip(1).map(passive).collect(),
             limits: Limits::none(),
             fallen_height: 0.0,
         };
@@ -97,6 +88,12 @@ impl Robot {
         check_limits(&robot)?;
         Ok(robot)
     }
+}
+
+/// What the file says that resists in a link's joint.
+fn passive(link: &RobotLink) -> Passive {
+    let JointProperties { damping, friction, .. } = link.joint.properties;
+    Passive { damping, friction }
 }
 
 /// Both precisions hold the limits.

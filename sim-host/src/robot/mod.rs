@@ -47,6 +47,8 @@ pub struct Robot {
     pub shapes: Vec<Solid>,
     /// Small bodies that a model may lump into neighbours; none where that was not measured.
     pub small_bodies: &'static [(usize, Side)],
+    /// What is in its joints, in the order of torques.
+    pub passive: Vec<Passive>,
     /// What its supervisor allows.
     pub limits: Limits,
     /// A central body this low has fallen, m.
@@ -75,6 +77,22 @@ pub struct FootPoint {
     pub column: String,
     /// In the body's frame, m.
     pub at: Vector3<f64>,
+}
+
+/// What resists in a joint, whatever its motor does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Passive {
+    /// N·m·s/rad
+    pub damping: f64,
+    /// Dry friction, N·m.
+    pub friction: f64,
+}
+
+impl Passive {
+    /// Whether nothing resists.
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// What a supervisor allows, joint by joint.

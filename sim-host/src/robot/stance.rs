@@ -26,7 +26,7 @@ pub fn on_floor(robot: &Robot, angles: &[f64], turned: Quaternion<f64>) -> Plant
     let mut state = PlantState::home(angles.len());
     state.positions[3..7].copy_from_slice(&turned.to_array());
     state.positions[7..].copy_from_slice(angles);
-    let all = points(robot, &state);
+    let all = robot.foot_points(&state);
     let lowest = all.iter().flatten().map(|point| point.z).fold(f64::INFINITY, f64::min);
     if lowest.is_finite() {
         state.positions[2] = -lowest;
@@ -39,14 +39,16 @@ pub(super) fn height(robot: &Robot, angles: &[f64]) -> f64 {
     on_floor(robot, angles, Quaternion::identity()).positions[2]
 }
 
-/// The points of each foot in the world; empty where the state is not a configuration.
-fn points(robot: &Robot, state: &PlantState) -> Vec<Vec<Vector3<f64>>> {
-    let poses = robot.tree.body_poses(&state.positions).unwrap_or_default();
-    let of_foot = |foot: &Foot| {
-        let pose = poses.get(foot.body);
-        foot.points.iter().filter_map(|point| Some(pose?.transform_point(point.at))).collect()
-    };
-    robot.feet.iter().map(of_foot).collect()
+impl Robot {
+    /// The points of each foot in the world, m; empty where the state is not a configuration.
+    pub fn foot_points(&self, state: &PlantState) -> Vec<Vec<Vector3<f64>>> {
+        let poses = self.tree.body_poses(&state.positions).unwrap_or_default();
+        let of_foot = |foot: &Foot| {
+            let pose = poses.get(foot.body);
+            foot.points.iter().filter_map(|point| Some(pose?.transform_point(point.at))).collect()
+        };
+        self.feet.iter().map(of_foot).collect()
+    }
 }
 
 /// Joint angles (rad) with which the robot stands upright on bent legs, its soles as they are with all joints at 0,
@@ -82,7 +84,7 @@ fn off_middle(robot: &Robot, state: &PlantState) -> Option<Vector3<f64>> {
     let weighted = poses.iter().enumerate().map(|(k, p)| p.position * robot.tree.body_mass(k));
     let center = weighted.sum::<Vector3<f64>>() / robot.tree.mass();
     // The controller loads all feet alike: what counts is the mean of their middles.
-    let feet = points(robot, state);
+    let feet = robot.foot_points(state);
     let middle = feet.iter().map(|foot| middle(foot)).sum::<Vector3<f64>>() / feet.len() as f64;
     let off = center - middle;
     Some(Vector3::new(off.x, off.y, 0.0))

@@ -2,7 +2,9 @@
 
 use super::check_hardware::check_hardware;
 use super::check_robot::{of_file, reach};
+use super::differences::check_plant;
 use super::rung::check_model;
+use super::terrain::check_terrain;
 use super::{Distribution, Feet, Scene, SceneError, Workspace};
 use crate::integrators::Method;
 use nalgebra::Vector3;
@@ -19,6 +21,8 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     thrown_block(scene)?;
     timing(scene)?;
     check_hardware(scene)?;
+    check_terrain(scene)?;
+    check_plant(scene)?;
     check_model(scene)?;
     reach(scene)
 }

@@ -9,6 +9,11 @@ const LONGEST_DELAY: f64 = 1.0;
 const MOST_DELAYED_TICKS: f64 = 1e5;
 /// Fewest counts of an encoder a turn.
 const FEWEST_COUNTS: u32 = 16;
+/// Most that a sensor is turned or off, degrees; and a gyroscope, rad/s.
+const MOST_ASKEW_DEG: f64 = 45.0;
+const MOST_BIAS: f64 = 10.0;
+/// Longest lag of a motor, s.
+const LONGEST_LAG: f64 = 10.0;
 
 pub(super) fn check_hardware(scene: &Scene) -> Result<(), SceneError> {
     sensing(scene)?;
@@ -30,6 +35,30 @@ fn sensing(scene: &Scene) -> Result<(), SceneError> {
             return Err(wrong(scene, field, noise, "a finite density, zero or more"));
         }
     }
+    let robot = scene.robot();
+    for (name, bias) in &sensing.encoder_bias_deg {
+        if !robot.columns.contains(name) {
+            let expected = format!("a joint of the robot: {}", robot.columns.join(", "));
+            return Err(wrong(scene, "sensing.encoder_bias_deg", name, expected));
+        }
+        if !(bias.abs() <= MOST_ASKEW_DEG) {
+            let expected = format!("an angle of at most {MOST_ASKEW_DEG}° either way");
+            let field = format!("sensing.encoder_bias_deg.{name}");
+            return Err(wrong(scene, &field, bias, expected));
+        }
+    }
+    if !(0.0..=MOST_ASKEW_DEG).contains(&sensing.backlash_deg) {
+        let expected = format!("an angle of 0 to {MOST_ASKEW_DEG}°");
+        return Err(wrong(scene, "sensing.backlash_deg", sensing.backlash_deg, expected));
+    }
+    if !sensing.imu_tilt_deg.iter().all(|angle| angle.abs() <= MOST_ASKEW_DEG) {
+        let expected = format!("angles of at most {MOST_ASKEW_DEG}° either way");
+        return Err(wrong(scene, "sensing.imu_tilt_deg", sensing.imu_tilt_deg, expected));
+    }
+    if !sensing.gyroscope_bias.iter().all(|rate| rate.abs() <= MOST_BIAS) {
+        let expected = format!("rates of at most {MOST_BIAS} rad/s either way");
+        return Err(wrong(scene, "sensing.gyroscope_bias", sensing.gyroscope_bias, expected));
+    }
     let correction = sensing.correction_s;
     if !(correction.is_finite() && correction > 0.0) {
         let expected = "a finite time above zero, in seconds";
@@ -47,6 +76,25 @@ fn acting(scene: &Scene) -> Result<(), SceneError> {
     if delay * scene.controller.rate_hz > MOST_DELAYED_TICKS {
         let expected = format!("a delay of at most {MOST_DELAYED_TICKS} ticks");
         return Err(wrong(scene, "acting.delay_s", delay, expected));
+    }
+    let lag = scene.acting.lag_s;
+    if !(lag == 0.0 || (1e-6..=LONGEST_LAG).contains(&lag)) {
+        let expected = format!("a time of 1e-6 to {LONGEST_LAG} s, or 0 for none");
+        return Err(wrong(scene, "acting.lag_s", lag, expected));
+    }
+    let dead = scene.acting.dead_zone_nm;
+    if !(dead.is_finite() && dead >= 0.0) {
+        return Err(wrong(scene, "acting.dead_zone_nm", dead, "a finite torque, zero or more"));
+    }
+    if let Some(stiffness) = scene.acting.range_stiffness {
+        if !(stiffness > 0.0 && stiffness <= 1e9) {
+            let expected = "a stiffness above zero, at most 1e9 N·m/rad";
+            return Err(wrong(scene, "acting.range_stiffness", stiffness, expected));
+        }
+        if scene.acting.joint_stops.is_some() {
+            let expected = "none, as `joint_stops` are given";
+            return Err(wrong(scene, "acting.range_stiffness", stiffness, expected));
+        }
     }
     if let Some(limits) = scene.acting.torque_limits_nm
         && !limits.iter().all(|limit| limit.is_finite() && *limit > 0.0)

@@ -1,10 +1,12 @@
 //! What a robot's sensors, motors and joints do less well than a simulator's.
 
 use crate::multibody::Stops;
+use crate::robot::Robot;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// Sensors. They are ideal unless said.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sensing {
     /// Counts of a joint's encoder a turn; 0 for one that reads exactly. Rates are then differences of
@@ -20,6 +22,18 @@ pub struct Sensing {
     pub correction_s: f64,
     /// Seed of the noise.
     pub seed: u64,
+    /// What encoders read too much, by names of joints, degrees.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub encoder_bias_deg: BTreeMap<String, f64>,
+    /// Play between each joint and its encoder, which sits on the motor's side, degrees: the encoder rests while the
+    /// joint moves within it.
+    pub backlash_deg: f64,
+    /// How the inertial sensor is turned in the central body against where it is taken to be: a rotation vector in the
+    /// body's axes, degrees.
+    pub imu_tilt_deg: [f64; 3],
+    /// What the gyroscope reads too much, its own axes, rad/s. The state estimate's orientation is off by this times
+    /// `correction_s`.
+    pub gyroscope_bias: [f64; 3],
 }
 
 impl Default for Sensing {
@@ -30,6 +44,10 @@ impl Default for Sensing {
             accelerometer_noise: 0.0,
             correction_s: 1.0,
             seed: 0,
+            encoder_bias_deg: BTreeMap::new(),
+            backlash_deg: 0.0,
+            imu_tilt_deg: [0.0; 3],
+            gyroscope_bias: [0.0; 3],
         }
     }
 }
@@ -37,7 +55,16 @@ impl Default for Sensing {
 impl Sensing {
     /// Whether the state is measured as it is.
     pub fn is_ideal(&self) -> bool {
-        self.encoder_counts == 0 && !self.is_noisy()
+        self.encoder_counts == 0
+            && self.encoder_bias_deg.is_empty()
+            && self.backlash_deg == 0.0
+            && !self.is_askew()
+            && !self.is_noisy()
+    }
+
+    /// Whether the inertial sensor is turned or biased.
+    pub fn is_askew(&self) -> bool {
+        self.imu_tilt_deg != [0.0; 3] || self.gyroscope_bias != [0.0; 3]
     }
 
     /// Whether the inertial sensors are noisy.
@@ -55,15 +82,32 @@ pub struct Acting {
     /// Largest torques of a leg's motors either way, hip to foot, N·m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub torque_limits_nm: Option<[f64; 6]>,
+    /// Time constant with which torques follow, s: that of a first-order lag.
+    pub lag_s: f64,
+    /// What of each torque is lost, N·m; smaller ones are lost whole.
+    pub dead_zone_nm: f64,
     /// Ends of the joints' ways.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_stops: Option<JointStops>,
+    /// Stiffness of stops at the ends of the joints' own ranges, N·m/rad.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range_stiffness: Option<f64>,
 }
 
 impl Acting {
     /// Whether it changes nothing.
     pub fn is_ideal(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// The stops of a robot's joints, if there are any, in the order of torques.
+    pub fn stops(&self, robot: &Robot) -> Option<Vec<Stops>> {
+        let named = self.joint_stops.map(|stops| stops.in_radians().to_vec());
+        let of_range = |stiffness: f64| {
+            let ranges = robot.limits.joints.iter().map(|joint| joint.angle);
+            ranges.map(|[low, high]| Stops { low, high, stiffness }).collect()
+        };
+        named.or_else(|| self.range_stiffness.map(of_range))
     }
 }
 

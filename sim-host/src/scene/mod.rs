@@ -7,6 +7,7 @@ mod check;
 mod check_hardware;
 mod check_mechanism;
 mod check_robot;
+mod differences;
 mod disturbance;
 mod hardware;
 mod inertia;
@@ -16,9 +17,11 @@ mod multibody;
 mod robot_entry;
 mod rung;
 mod source;
+mod terrain;
 mod warnings;
 
 pub use builtin::{BuiltIn, built_in};
+pub use differences::{BodyTable, JointTable, PlantTable};
 pub use disturbance::{Block, Push, StruckBox};
 pub use hardware::{Acting, JointStops, Sensing};
 pub use load::{AnyScene, SceneError, load, open, parse};
@@ -28,6 +31,7 @@ pub use multibody::{
 };
 pub use robot_entry::RobotEntry;
 pub use rung::{LUMPED_DEVIATION_M, Matters, ModelChoice, Rung};
+pub use terrain::{Patch, Terrain};
 
 use crate::contact::Floor;
 use crate::integrators::Method;
@@ -70,6 +74,12 @@ pub struct Scene {
     pub controller: ControllerSettings,
     /// What the feet stand on.
     pub feet: Feet,
+    /// What the robot has otherwise than the controller's model of it; nothing unless said.
+    #[serde(default, skip_serializing_if = "PlantTable::is_model")]
+    pub plant: PlantTable,
+    /// Ground that is not level; the plane z = 0 unless said.
+    #[serde(default, skip_serializing_if = "Terrain::is_level")]
+    pub terrain: Terrain,
     /// Pushes against the central body; none unless said.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pushes: Vec<Push>,
@@ -92,6 +102,19 @@ impl Scene {
             (None, Feet::Floor { outline: Some(outline), .. }) => biped(outline),
             (None, _) => biped(Outline::A),
         }
+    }
+
+    /// Where it starts: on ground that is not level so much higher that none of its points is deeper in it than in the
+    /// floor z = 0.
+    pub fn start(&self) -> PlantState {
+        let mut start = self.initial.state();
+        if matches!(self.initial, Initial::Legs(_)) && !self.terrain.is_level() {
+            let robot = self.robot();
+            let level = robot.foot_points(&start).into_iter().flatten().map(|point| point.z);
+            let lowest = level.fold(f64::INFINITY, f64::min);
+            start.positions[2] += lowest + self.terrain.raise(&robot, &start);
+        }
+        start
     }
 
     /// What all pushes do to the central body on average from one time to a later one, world frame; `None` where there

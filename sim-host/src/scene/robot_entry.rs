@@ -108,6 +108,9 @@ fn start(scene: &Scene, robot: &Robot) -> Result<crate::plant::PlantState, Scene
     }
     let turned = Quaternion::from_axis_angle(axis.normalize(), initial.turn_deg.to_radians());
     let mut state = stance::on_floor(robot, &angles, turned);
+    if !scene.terrain.is_level() {
+        state.positions[2] += scene.terrain.raise(robot, &state);
+    }
     state.positions[2] += initial.above_floor_m;
     Ok(state)
 }

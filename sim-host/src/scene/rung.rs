@@ -106,6 +106,10 @@ impl Scene {
             Some("the baseline method has no other")
         } else if self.acting.joint_stops.is_some() {
             Some("joint stops need hinges")
+        } else if !self.plant.is_model() {
+            Some("what differs from the model needs all bodies")
+        } else if self.acting.range_stiffness.is_some() {
+            Some("joint stops need hinges")
         } else if hips.iter().any(|hip| !(hip.abs() <= MOST_BENT_DEG)) {
             Some("a hip starts near the gimbal lock of a spherical joint")
         } else {

@@ -119,7 +119,7 @@ impl TreeMotion {
     fn watched(&self) -> Watched {
         let Self { system, states, rates, duration_s } = self;
         let dissipates =
-            system.ground().is_some() || system.laws().iter().any(|(_, law)| law.damping > 0.0);
+            system.ground().is_some() || system.laws().iter().any(|(_, law)| law.dissipates());
         let mut watched = Watched {
             states: Vec::with_capacity(STATES),
             spacing_s: duration_s / STATES as f64,

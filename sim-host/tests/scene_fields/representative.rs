@@ -27,6 +27,7 @@ pub fn scenes() -> Vec<Named> {
         "hardware".into(),
         read("experiment-1").replace("step_s = 2e-3", "step_s = 1e-3") + HARDWARE,
     ));
+    all.push(("differing".into(), read("stand") + DIFFERING));
     all
 }
 
@@ -97,7 +98,7 @@ inertia_kg_m2 = [0.004, 0.005, 0.006]
 center_m = [0.3, 0.2, 1.4]
 joint = { kind = "prismatic", axis = [1.0, 0.3, 0.2], rate_m_s = 0.4 }
 torque = 2.0
-law = { stiffness = 100.0, rest = -0.02, damping = 0.5 }
+law = { stiffness = 100.0, rest = -0.02, damping = 0.5, friction = 0.3, rotor_inertia = 0.01 }
 [[mechanism.bodies]]
 name = "cross"
 inboard = "base"
@@ -181,13 +182,52 @@ gyroscope_noise = 1e-3
 accelerometer_noise = 1e-2
 correction_s = 0.5
 seed = 3
+backlash_deg = 0.1
+imu_tilt_deg = [0.3, -0.2, 0.1]
+gyroscope_bias = [0.001, 0.002, -0.001]
+encoder_bias_deg = { left_knee = 0.2, right_hip_x = -0.1 }
 
 [acting]
 delay_s = 1.3e-3
+lag_s = 1e-3
+dead_zone_nm = 0.2
 torque_limits_nm = [200, 300, 100, 150, 200, 200]
 
 [acting.joint_stops]
 left_deg = [[-1, 1], [30, 45], [-1, 1], [-140, -77], [-1, 1], [-45, 60]]
 right_deg = [[-1, 1], [30, 45], [-1, 1], [-140, -77], [-1, 1], [-45, 60]]
 stiffness = 2e3
+";
+
+const DIFFERING: &str = "
+[acting]
+range_stiffness = 2e3
+
+[terrain]
+slope_deg = 3.0
+uphill_deg = 20.0
+
+[terrain.under.\"left foot\"]
+height_m = 0.004
+slope_deg = 2.0
+uphill_deg = 70.0
+
+[plant.bodies.\"central body\"]
+mass_factor = 1.05
+inertia_factor = 0.9
+center_shift_m = [0.01, -0.004, 0.003]
+added_mass_kg = 2.0
+added_at_m = [0.05, 0.1, 0.2]
+
+[plant.joints.left_knee]
+shift_m = [0.002, 0.001, -0.003]
+rotor_inertia_kg_m2 = 0.02
+damping = 0.5
+friction_nm = 1.5
+
+[plant.every_joint]
+shift_m = [0.001, 0.001, -0.001]
+rotor_inertia_kg_m2 = 0.01
+damping = 0.2
+friction_nm = 0.5
 ";

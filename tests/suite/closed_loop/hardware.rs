@@ -9,13 +9,16 @@ use surefoot_sim::record::SavedRun;
 use surefoot_sim::scene::{Acting, AnyScene, Scene, Sensing, load, open, parse};
 
 /// As of a good robot: encoders of 16 bits, sensors of a few dollars, a millisecond from measurement to torque.
-const SENSING: Sensing = Sensing {
-    encoder_counts: 1 << 16,
-    gyroscope_noise: 1e-4,
-    accelerometer_noise: 1e-3,
-    correction_s: 1.0,
-    seed: 1,
-};
+fn good_sensors() -> Sensing {
+    Sensing {
+        encoder_counts: 1 << 16,
+        gyroscope_noise: 1e-4,
+        accelerometer_noise: 1e-3,
+        correction_s: 1.0,
+        seed: 1,
+        ..Sensing::default()
+    }
+}
 const DELAY: f64 = 1e-3;
 
 /// The scene's controller, between a note of what it answered and a change of it that a motor might make.
@@ -144,7 +147,7 @@ fn a_seed_is_a_run() {
     let of_seed = |seed| {
         play(&scene(|s| {
             s.duration_s = 0.2;
-            s.sensing = Sensing { seed, ..SENSING };
+            s.sensing = Sensing { seed, ..good_sensors() };
         }))
         .0
     };
@@ -160,7 +163,7 @@ fn experiment_1_balances_with_good_hardware() {
     let mut squares = 0.0;
     for seed in 1..=8 {
         let (run, _) = play(&scene(|s| {
-            s.sensing = Sensing { seed, ..SENSING };
+            s.sensing = Sensing { seed, ..good_sensors() };
             s.acting.delay_s = DELAY;
             s.acting.torque_limits_nm = Some([200.0, 300.0, 100.0, 160.0, 200.0, 200.0]);
         }));
@@ -192,11 +195,31 @@ fn the_documented_tables_play() {
     let AnyScene::Robot(scene) = parse("documented", &text).expect("a scene") else {
         unreachable!("a robot")
     };
-    assert_eq!(scene.sensing, SENSING);
+    assert_eq!(scene.sensing, good_sensors());
     assert!(scene.acting.joint_stops.is_some());
     let (run, _) = play(&scene);
     assert!(run.failure.is_none(), "{:?}", run.failure);
     assert!(run.samples.last().expect("samples").error_distance() < 3e-3);
+}
+
+/// The others too: the robot stands, a little askew.
+#[test]
+fn the_other_documented_tables_play() {
+    let document = include_str!("../../../docs/robot-scenes.md");
+    let stand = include_str!("../../../sim-host/scenes/stand.toml");
+    for (number, [distance, degrees]) in [(3, [0.05, 3.0]), (5, [0.05, 8.0])] {
+        let tables = document.split("```").nth(number).and_then(|code| code.strip_prefix("toml"));
+        let text = [stand, tables.expect("an example")].concat();
+        let AnyScene::Robot(scene) = parse("documented", &text).expect("a scene") else {
+            unreachable!("a robot")
+        };
+        let (run, _) = play(&scene);
+        assert!(run.failure.is_none(), "{number}: {:?}", run.failure);
+        let last = run.samples.last().expect("samples");
+        let (off, angle) = (last.error_distance(), last.error_angle().to_degrees());
+        println!("{number}: {off} m, {angle}°");
+        assert!(off < distance && angle < degrees, "{number}: {off} m, {angle}°");
+    }
 }
 
 /// Too late for any balance: the run ends with a reason, and says only what can be said.
@@ -220,8 +243,10 @@ fn runs_with_hardware_go_on_to_the_same_bits() {
     let AnyScene::Robot(mut scene) = open("experiment-1").expect("built in") else {
         unreachable!("a robot")
     };
-    scene.sensing = SENSING;
-    scene.acting = Acting { delay_s: 5.3e-3, ..Acting::default() };
+    scene.sensing = good_sensors();
+    scene.sensing.backlash_deg = 0.05;
+    scene.sensing.imu_tilt_deg = [0.2, 0.0, 0.0];
+    scene.acting = Acting { delay_s: 5.3e-3, lag_s: 1e-3, dead_zone_nm: 0.1, ..Acting::default() };
     let run = |scene: &Scene, from: Option<&SavedRun>| {
         let mut controller = controller(scene, Scalar::F64);
         closed_loop::run_from(scene, controller.as_mut(), from, &mut |_| {})
@@ -238,7 +263,8 @@ fn runs_with_hardware_go_on_to_the_same_bits() {
     for (a, b) in whole.samples[50..].iter().zip(&second.samples) {
         assert!(a == b, "at {} s", a.time_s);
     }
-    for other in [Acting::default(), Acting { delay_s: 9e-3, ..Acting::default() }] {
+    let lagging = Acting { delay_s: 5.3e-3, ..Acting::default() };
+    for other in [Acting::default(), Acting { delay_s: 9e-3, ..Acting::default() }, lagging] {
         scene.acting = other;
         let failure = run(&scene, Some(&saved)).failure.expect("other motors");
         assert_eq!(failure.kind, "resume");

@@ -3,6 +3,7 @@
 mod acting;
 mod bad_ticks;
 mod causes;
+mod differences;
 mod error_dynamics;
 mod experiment_1;
 mod experiment_2;

@@ -7,13 +7,20 @@ use surefoot_sim::plant::PlantState;
 use surefoot_sim::scene::Sensing;
 
 const PERIOD: f64 = 2e-3;
-const NOISY: Sensing = Sensing {
-    encoder_counts: 0,
-    gyroscope_noise: 1e-6,
-    accelerometer_noise: 1e-5,
-    correction_s: 0.5,
-    seed: 3,
-};
+fn noisy() -> Sensing {
+    Sensing {
+        gyroscope_noise: 1e-6,
+        accelerometer_noise: 1e-5,
+        correction_s: 0.5,
+        seed: 3,
+        ..Sensing::default()
+    }
+}
+
+/// Names of twelve joints.
+fn joints() -> Vec<String> {
+    (0..12).map(|joint| format!("joint {joint}")).collect()
+}
 
 /// A state in motion, turned about no axis of the world.
 fn state() -> PlantState {
@@ -30,7 +37,7 @@ fn state() -> PlantState {
 fn encoders_read_whole_counts_and_their_differences() {
     let sensing = Sensing { encoder_counts: 4096, ..Sensing::default() };
     let count = std::f64::consts::TAU / 4096.0;
-    let mut sensors = Sensors::new(&sensing, PERIOD, 12);
+    let mut sensors = Sensors::new(&sensing, PERIOD, &joints());
     let angle = |joint: usize, time: f64| 0.8 * (3.0 * time + joint as f64).sin();
     let rate = |joint: usize, time: f64| 2.4 * (3.0 * time + joint as f64).cos();
     let (mut largest, mut largest_of_rates) = (0.0_f64, 0.0_f64);
@@ -82,7 +89,8 @@ fn errors(seen: &PlantState, truth: &PlantState) -> [Vector3<f64>; 4] {
 /// complementary filter; over one time constant errors keep the share of themselves that it leaves.
 #[test]
 fn errors_have_the_deviations_and_the_memory_of_their_equations() {
-    let (n_g, n_a, t) = (NOISY.gyroscope_noise, NOISY.accelerometer_noise, NOISY.correction_s);
+    let (n_g, n_a, t) =
+        (noisy().gyroscope_noise, noisy().accelerometer_noise, noisy().correction_s);
     let stationary = (0.5 * t).sqrt();
     let expected =
         [n_g * stationary, n_a * stationary, 0.5 * n_a * t.powf(1.5), n_g / PERIOD.sqrt()];
@@ -94,7 +102,7 @@ fn errors_have_the_deviations_and_the_memory_of_their_equations() {
     let mut squares = [[0.0; 4]; 2];
     let (mut products, mut sums) = ([0.0; 4], [0.0; 4]);
     for seed in 0..SEEDS {
-        let mut sensors = Sensors::new(&Sensing { seed, ..NOISY }, PERIOD, 12);
+        let mut sensors = Sensors::new(&Sensing { seed, ..noisy() }, PERIOD, &joints());
         let first = errors(sensors.read(&truth), &truth);
         for _ in 1..ticks {
             sensors.read(&truth);
@@ -129,8 +137,8 @@ fn errors_have_the_deviations_and_the_memory_of_their_equations() {
 fn the_same_noise_is_told_and_integrated() {
     let truth = state();
     let t = 5.0 * PERIOD;
-    let sensing = Sensing { correction_s: t, accelerometer_noise: 1e-3, ..NOISY };
-    let mut sensors = Sensors::new(&sensing, PERIOD, 12);
+    let sensing = Sensing { correction_s: t, accelerometer_noise: 1e-3, ..noisy() };
+    let mut sensors = Sensors::new(&sensing, PERIOD, &joints());
     let mut before = errors(sensors.read(&truth), &truth);
     let decay = (-PERIOD / t).exp();
     for _ in 0..100 {
@@ -159,8 +167,8 @@ fn the_same_noise_is_told_and_integrated() {
 #[test]
 fn a_seed_is_a_noise() {
     let readings = |seed| {
-        let sensing = Sensing { seed, encoder_counts: 1 << 14, ..NOISY };
-        let mut sensors = Sensors::new(&sensing, PERIOD, 12);
+        let sensing = Sensing { seed, encoder_counts: 1 << 14, ..noisy() };
+        let mut sensors = Sensors::new(&sensing, PERIOD, &joints());
         let bits = |state: &PlantState| {
             let numbers = state.positions.iter().chain(&state.velocities);
             numbers.map(|x| x.to_bits()).collect::<Vec<_>>()
@@ -175,11 +183,72 @@ fn a_seed_is_a_noise() {
 #[test]
 fn ideal_sensors_read_the_state() {
     let still = PlantState { positions: vec![0.1; 19], velocities: vec![-0.0; 18] };
-    let mut sensors = Sensors::new(&Sensing::default(), PERIOD, 12);
+    let mut sensors = Sensors::new(&Sensing::default(), PERIOD, &joints());
     for truth in [state(), still] {
         let seen = sensors.read(&truth);
         let bits = |all: &[f64]| -> Vec<u64> { all.iter().map(|x| x.to_bits()).collect() };
         assert_eq!(bits(&seen.positions), bits(&truth.positions));
         assert_eq!(bits(&seen.velocities), bits(&truth.velocities));
     }
+}
+
+/// A joint that swings to and fro: its encoder rests while the play is taken up, and reads the joint with half the
+/// play, and its bias, else.
+#[test]
+fn encoders_rest_within_their_play() {
+    let names = joints();
+    let (play, bias) = (1.0_f64, 0.25_f64);
+    let mut sensing = Sensing { backlash_deg: play, ..Sensing::default() };
+    sensing.encoder_bias_deg.insert(names[2].clone(), bias);
+    let mut sensors = Sensors::new(&sensing, PERIOD, &names);
+    let (half, mut rested) = (0.5 * play.to_radians(), 0);
+    let mut truth = state();
+    for tick in 0..1000 {
+        let time = 3.0 * f64::from(tick) * PERIOD;
+        (truth.positions[9], truth.velocities[8]) = (0.3 * time.sin(), 0.9 * time.cos());
+        let seen = sensors.read(&truth);
+        let off = seen.positions[9] - bias.to_radians() - truth.positions[9];
+        assert!(off.abs() <= half + 1e-15, "{off}");
+        // After the first way ahead it is off by half the play, whenever it moves.
+        if tick > 200 && seen.velocities[8] != 0.0 {
+            assert!((off.abs() - half).abs() < 1e-15, "{off}");
+        }
+        rested += usize::from(seen.velocities[8] == 0.0);
+    }
+    // Of each turn of the motion: twice the play, near its ends.
+    println!("rested at {rested} ticks of 1000");
+    assert!((50..400).contains(&rested));
+}
+
+/// A sensor that is turned tells the pose and twist of the body as if it were the sensor.
+#[test]
+fn a_tilted_sensor_tilts_the_body() {
+    let tilt = Vector3::new(1.5_f64, -0.4, 2.0);
+    let sensing = Sensing {
+        imu_tilt_deg: tilt.into(),
+        gyroscope_bias: [0.01, 0.0, -0.02],
+        correction_s: 0.5,
+        ..Sensing::default()
+    };
+    let (truth, names) = (state(), joints());
+    let mut sensors = Sensors::new(&sensing, PERIOD, &names);
+    let seen = sensors.read(&truth);
+    let turn = |state: &PlantState| {
+        let q: [f64; 4] = std::array::from_fn(|i| state.positions[3 + i]);
+        Quaternion::from_array(q).to_matrix()
+    };
+    let r = nalgebra::Rotation3::new(tilt.map(f64::to_radians)).into_inner();
+    let bias = Vector3::new(0.01, 0.0, -0.02);
+    let drift = nalgebra::Rotation3::new(bias * 0.5).into_inner();
+    assert!((turn(seen) - turn(&truth) * r * drift).abs().max() < 1e-15);
+    let part = |all: &[f64]| Vector3::from_row_slice(all);
+    let omega = r.transpose() * part(&truth.velocities[3..6]) + bias;
+    assert!((part(&seen.velocities[3..6]) - omega).norm() < 1e-15);
+    let in_world =
+        [turn(seen) * part(&seen.velocities[..3]), turn(&truth) * part(&truth.velocities[..3])];
+    assert!((in_world[0] - in_world[1]).norm() < 1e-14);
+    assert_eq!(
+        (&seen.positions[..3], &seen.positions[7..]),
+        (&truth.positions[..3], &truth.positions[7..])
+    );
 }

@@ -3,16 +3,17 @@
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use nalgebra::Vector3;
 use surefoot::dynamics::{body_poses, forward_dynamics, joint_poses};
-use surefoot::model::robots::biped::TREE;
+use surefoot::model::Tree;
+use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Wrench};
 use surefoot_sim::multibody::{
-    Chain, ChainJoint, JointLaw, Simulation, Stops, states_of_tree, system_of_tree,
+    Chain, ChainJoint, JointConstraint, JointLaw, Simulation, Stops, states_of_tree, system_of_tree,
 };
 
 const SECONDS: f64 = 0.4;
 /// Pulls at the central body's centre of mass, world frame.
 const PULL: [f64; 3] = [30.0, -12.0, 700.0];
-const LAW: JointLaw = JointLaw { stiffness: 20.0, rest: 0.1, damping: 0.8, stops: None };
+const LAW: JointLaw = JointLaw { stiffness: 20.0, rest: 0.1, damping: 0.8, ..JointLaw::NONE };
 
 fn start() -> ([f64; 19], [f64; 18]) {
     let mut q: [f64; 19] = std::array::from_fn(|i| 0.4 * (1.3 * i as f64 + 0.2).sin());
@@ -25,21 +26,35 @@ fn torque(joint: usize) -> f64 {
     6.0 * (0.7 * joint as f64).sin()
 }
 
+type Biped = Tree<f64, 13, 19, 18>;
+
+/// The biped with a rotor in each joint.
+fn geared() -> Biped {
+    let mut links = [biped::CENTRAL; 13];
+    let (left, right) = (biped::leg(2, [0.0, -0.15]), biped::leg(8, [0.0, 0.15]));
+    for k in 0..6 {
+        let rotor = 0.05 + 0.1 * k as f64;
+        links[1 + k] = left[k].rotor_inertia(rotor);
+        links[7 + k] = right[k].rotor_inertia(1.5 * rotor);
+    }
+    Tree::new(links)
+}
+
 /// The biped under motors, springs, dampers and a pull, by `core`'s forward dynamics under an adaptive
 /// method of eighth order: centres of mass at the end.
-fn reference() -> Vec<Vector3<f64>> {
+fn reference(tree: &Biped) -> Vec<Vector3<f64>> {
     let rates = |_: f64, y: &Vec<f64>, rates: &mut Vec<f64>| {
         let q: [f64; 19] = std::array::from_fn(|i| y[i]);
         let v: [f64; 18] = std::array::from_fn(|i| y[19 + i]);
-        let poses = joint_poses(&TREE, &q).expect("a configuration");
-        let bodies = body_poses(&TREE, &poses);
+        let poses = joint_poses(tree, &q).expect("a configuration");
+        let bodies = body_poses(tree, &poses);
         let tau: [f64; 18] = std::array::from_fn(|i| match i.checked_sub(6) {
             None => 0.0,
             Some(j) => torque(j) - LAW.stiffness * (q[7 + j] - LAW.rest) - LAW.damping * v[6 + j],
         });
         let mut wrenches = [Wrench::zero(); 13];
         wrenches[0].force = bodies[0].rotation.tr_mul(&Vector3::from(PULL));
-        let a = forward_dynamics(&TREE, &poses, &v, &tau, Some(&wrenches)).expect("regular");
+        let a = forward_dynamics(tree, &poses, &v, &tau, Some(&wrenches)).expect("regular");
         let turn = Quaternion::from_array([q[3], q[4], q[5], q[6]]);
         let along = bodies[0].rotation * Vector3::new(v[0], v[1], v[2]);
         rates[..3].copy_from_slice(along.as_slice());
@@ -53,17 +68,25 @@ fn reference() -> Vec<Vector3<f64>> {
     let solution = IVP::ode_from_fn(rates, 0.0, SECONDS, begin).method(method).solve();
     let solution = solution.expect("a solution");
     let (_, end) = solution.last().expect("an end");
-    let poses = joint_poses(&TREE, &std::array::from_fn(|i| end[i])).expect("a configuration");
-    body_poses(&TREE, &poses).iter().map(|pose| pose.position).collect()
+    let poses = joint_poses(tree, &std::array::from_fn(|i| end[i])).expect("a configuration");
+    body_poses(tree, &poses).iter().map(|pose| pose.position).collect()
 }
 
 #[test]
 fn a_driven_robot_converges_to_forward_dynamics() {
-    let exact = reference();
+    let ends = [biped::TREE, geared()].map(|tree| converges(&tree));
+    let apart = ends[0].iter().zip(&ends[1]).map(|(a, b)| (a - b).norm());
+    let apart = apart.fold(0.0, f64::max);
+    assert!(apart > 1e-2, "{apart} m by the rotors");
+}
+
+/// Where its bodies end.
+fn converges(tree: &Biped) -> Vec<Vector3<f64>> {
+    let exact = reference(tree);
     let (q, v) = start();
-    let (states, rates) = states_of_tree(&TREE, &q, &v).expect("a configuration");
+    let (states, rates) = states_of_tree(tree, &q, &v).expect("a configuration");
     let error = |steps: u32| {
-        let mut system = system_of_tree(&TREE).expect("a system");
+        let mut system = system_of_tree(tree).expect("a system");
         for k in 1..13 {
             system = system.with_law(k, LAW).expect("a hinge");
         }
@@ -84,6 +107,7 @@ fn a_driven_robot_converges_to_forward_dynamics() {
     println!("{coarse:.1e} m, {fine:.1e} m: order {order:.3}");
     assert!((order - 2.0).abs() < 0.03, "{order}");
     assert!(fine < 1e-5, "{fine}");
+    exact
 }
 
 /// A hinge between two stops: what it loses there it gets back, for as long as one likes.
@@ -120,4 +144,50 @@ fn stops_keep_the_energy_and_hold_the_joint() {
     assert!(low < -1.3 && low > -1.5, "{low}");
     assert!(high < 0.1, "{high}");
     assert!(band < 0.02 * first.abs().max(40.0), "{band}");
+}
+
+/// Two bodies on a slider and a hinge, each with a rotor: their total energy stays, and is that of masses so much larger.
+#[test]
+fn rotors_hold_energy() {
+    let rotor = |rotor_inertia| JointLaw { rotor_inertia, ..JointLaw::default() };
+    let chain = |joint| Chain {
+        links: 1,
+        mass: 2.0,
+        length: 0.5,
+        radius: 0.05,
+        joint,
+        floats: false,
+        gravity: 9.81,
+    };
+    let hinge = chain(ChainJoint::Revolute);
+    let start = hinge.bent(1.0);
+    let system = hinge.system().expect("a system").with_law(0, rotor(0.7)).expect("a hinge");
+    let inertia = {
+        let link = system.links()[0];
+        let JointConstraint::Revolute { axis } = link.joint.constraint else { panic!("a hinge") };
+        let arm = Vector3::from(link.joint.outboard).norm_squared();
+        let own: f64 = axis.iter().zip(link.body.inertia).map(|(a, i)| a * a * i).sum();
+        own + link.body.mass * arm
+    };
+    let mut simulation = Simulation::new(system, 1e-3, &start, &[[0.0; 7]]).expect("a start");
+    let total = |simulation: &mut Simulation| {
+        let (kinetic, potential) = simulation.energies().expect("regular");
+        kinetic + potential
+    };
+    let first = total(&mut simulation);
+    let mut worst = [0.0_f64; 2];
+    for _ in 0..2000 {
+        simulation.step().expect("a step");
+        let (kinetic, _) = simulation.energies().expect("regular");
+        let rates = simulation.rates().expect("regular");
+        let measured = simulation.system().kinetic_energy(&simulation.states(), &rates);
+        worst[0] = worst[0].max((kinetic - measured).abs());
+        worst[1] = worst[1].max((total(&mut simulation) - first).abs());
+    }
+    // ¼ of the way down and back, against a hinge without the rotor.
+    let rate = simulation.column_rates().expect("regular")[0];
+    let kinetic = simulation.energies().expect("regular").0;
+    assert!((kinetic - 0.5 * (inertia + 0.7) * rate * rate).abs() < 1e-12 * kinetic.max(1.0));
+    println!("{worst:?}");
+    assert!(worst[0] < 1e-13 && worst[1] < 1e-5, "{worst:?}");
 }

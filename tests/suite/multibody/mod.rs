@@ -15,6 +15,7 @@ mod reference;
 mod rerooted;
 mod resume;
 mod scales;
+mod slopes;
 mod solver;
 mod strikes;
 mod throws;

@@ -107,7 +107,16 @@ fn random_planar_tree(seed: u64, floats: bool, on_floor: bool) -> Start {
         match k {
             2 | 3 => {
                 let stops = (k == 2).then_some(Stops { low: -0.05, high: 0.04, stiffness: 60.0 });
-                laws.push((k, JointLaw { stiffness: 8.0, rest: 0.2, damping: 0.1, stops }));
+                let rotor_inertia = 0.02 * mass;
+                let law = JointLaw {
+                    stiffness: 8.0,
+                    rest: 0.2,
+                    damping: 0.1,
+                    friction: 0.2,
+                    stops,
+                    rotor_inertia,
+                };
+                laws.push((k, law));
             }
             _ => {}
         }

@@ -136,7 +136,8 @@ fn start(sort: Sort, seed: u64, units: Units, drift: [f64; 3]) -> Start {
                     stiffness: 0.1 * moment,
                     rest: 0.3,
                     damping: 0.02 * moment * units.s,
-                    stops: None,
+                    rotor_inertia: 0.01 * units.kg * units.m * units.m,
+                    ..JointLaw::NONE
                 },
             ));
             torques[k] = 0.01 * moment;
@@ -374,7 +375,7 @@ fn what_rests_between_springs_stays() {
             Link { inboard: None, joint: joint([1.0, 0.0, 0.0]), body },
             Link { inboard: Some(0), joint: joint([1.0, 0.0, 0.0]), body },
         ];
-        let law = |rest: f64| JointLaw { stiffness: stiff, rest, damping: 0.0, stops: None };
+        let law = |rest: f64| JointLaw { stiffness: stiff, rest, ..JointLaw::NONE };
         let system = System::new(links, 0.0).expect("a tree");
         let system = system.with_law(0, law(0.3)).expect("a law").with_law(1, law(-0.1)).expect("");
         let at = |x: f64| [x, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];

@@ -115,7 +115,10 @@ fn described(system: &System, states: &[BodyState], k: usize, base: &BodyState) 
     };
     let q = turn.to_array();
     let norm = q.iter().map(|q| q * q).sum::<f64>().sqrt();
-    joined.body(link.body.mass, link.body.inertia, centre.into()).oriented(q.map(|q| q / norm))
+    let own = system.laws().iter().filter(|(link, _)| *link == k);
+    let rotor = own.map(|(_, law)| law.rotor_inertia).sum();
+    let body = joined.body(link.body.mass, link.body.inertia, centre.into());
+    body.oriented(q.map(|q| q / norm)).rotor_inertia(rotor)
 }
 
 fn placed(&[x, y, z, ref q @ ..]: &BodyState) -> (Vector3<f64>, Quaternion<f64>) {

@@ -112,7 +112,9 @@ impl<const N: usize, const NQ: usize, const NV: usize> TreeModel for Sized<N, NQ
         for held in &self.laws {
             let Law { column, law, .. } = held;
             let angle = Self::angle(held, positions);
-            torques[*column] -= law.stiffness * (angle - law.rest) + law.damping * v[*column];
+            let rate = v[*column];
+            let rubbed = law.rubbed(rate).0;
+            torques[*column] -= law.stiffness * (angle - law.rest) + law.damping * rate + rubbed;
         }
         let poses = joint_poses(&self.tree, &q)?;
         let a = forward_dynamics(&self.tree, &poses, &v, &torques, None)?;

@@ -64,6 +64,9 @@ pub enum NotPlanar {
         /// Which one.
         site: usize,
     },
+    /// Slopes are stood on in space only.
+    #[error("floors that are not level are stood on in space")]
+    Terrain,
     /// Loops are solved in space only.
     #[error("closed loops are solved in space")]
     Loops,

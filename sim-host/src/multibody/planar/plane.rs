@@ -64,6 +64,9 @@ impl Plane {
         if !system.strikers().is_empty() {
             return Err(NotPlanar::Strikers);
         }
+        if !system.terrain().is_empty() {
+            return Err(NotPlanar::Terrain);
+        }
         let bodies: Vec<Body> = states.iter().zip(rates).map(|(x, v)| Body::of(x, v)).collect();
         let mut first = None;
         for normal in normals(system, &bodies) {

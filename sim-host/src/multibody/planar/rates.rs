@@ -24,6 +24,9 @@ impl PlanarSimulation {
         }
         self.touches.iter_mut().for_each(super::touch::Touch::forget);
         self.own_slopes.fill(0.0);
+        for law in &self.laws {
+            self.own_slopes[law.column] -= law.law.rotor(0.0, h).1;
+        }
         let Self { elimination, nodes, places, ends, touches, own_slopes, at, .. } = self;
         elimination.factor(nodes, places, ends, touches, own_slopes, h).map_err(|pivot| {
             at.progress.error(StepFailure::Newton(NewtonFailure::SingularJacobian { pivot }))

@@ -1,6 +1,7 @@
 //! What residuals in a plane are measured by: see [`super::super::scale`].
 
-use super::super::scale::{Composite, Scale};
+use super::super::scale::{Composite, Scale, rotor_inertia};
+use super::super::system::System;
 use super::node::{Kind, Node};
 use super::simulation::PlanarSimulation;
 
@@ -21,13 +22,14 @@ pub(super) struct Scales {
 
 impl Scales {
     /// At rest.
-    pub fn new(nodes: &[Node], columns: usize) -> Self {
+    pub fn new(system: &System, nodes: &[Node], columns: usize) -> Self {
         let mut all = vec![Composite::default(); nodes.len()];
         let (mut weights, mut moving) = (vec![0.0; columns], vec![0.0; columns]);
         let mut drifting = vec![0.0; columns];
         for (k, node) in nodes.iter().enumerate().rev() {
             all[k].add(&Composite::of_body(node.mass, node.moment, node.arm.norm()));
             let Composite { mass, moment, .. } = all[k];
+            let rotor = rotor_inertia(system, k);
             for i in 0..node.kind.columns() {
                 let c = node.column + i;
                 let inertia = match (node.kind, i) {
@@ -36,12 +38,12 @@ impl Scales {
                         mass
                     }
                     (Kind::Prismatic, _) => {
-                        moving[c] = mass;
-                        mass
+                        moving[c] = mass + rotor;
+                        mass + rotor
                     }
                     _ => {
-                        moving[c] = 4.0 * moment;
-                        moment
+                        moving[c] = 4.0 * (moment + rotor);
+                        moment + rotor
                     }
                 };
                 weights[c] = 1.0 / inertia.sqrt();

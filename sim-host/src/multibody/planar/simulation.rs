@@ -120,7 +120,7 @@ impl PlanarSimulation {
             at,
             places: vec![Place::WORLD; nodes.len()],
             torques: vec![0.0; columns],
-            scales: Scales::new(&nodes, columns),
+            scales: Scales::new(&system, &nodes, columns),
             contacts: vec![ContactPoint::default(); part_of.len()],
             touches,
             part_of,
@@ -239,7 +239,14 @@ impl PlanarSimulation {
             let spin = node.moment * body.omega.dot(&self.plane.normal);
             self.ends[k].all = Pair { linear, angular: spin + cross(&place.to_center, &linear) };
         }
-        self.gather_momenta(false);
+        self.own_impulses.fill(0.0);
+        for Law { node, column, law, sign } in &self.laws {
+            if law.rotor_inertia != 0.0 {
+                let rate = self.system.joint_rate(*node, states, rates);
+                self.own_impulses[*column] += sign * law.rotor_inertia * rate;
+            }
+        }
+        self.gather_momenta();
         let h = self.at.progress.h;
         // A singular inertia is the first step's to report.
         if self.column_rates().is_ok() {
@@ -251,13 +258,13 @@ impl PlanarSimulation {
         }
     }
 
-    /// Momenta of columns from those of bodies, which the trial's ends hold, with those of own impulses or not.
-    pub(super) fn gather_momenta(&mut self, with_own: bool) {
+    /// Momenta of columns from those of bodies, which the trial's ends hold, and own impulses.
+    pub(super) fn gather_momenta(&mut self) {
         for k in (0..self.nodes.len()).rev() {
             let (node, place, all) = (&self.nodes[k], &self.places[k], self.ends[k].all);
             let (momenta, own) = (&mut self.at.momenta, &self.own_impulses);
             project(node, place, &all, &mut |c, along| {
-                momenta[c] = along + if with_own { own[c] } else { 0.0 };
+                momenta[c] = along + own[c];
             });
             if let Some(inboard) = node.inboard {
                 self.ends[inboard].all.add_shifted(&all, &place.from_inboard);

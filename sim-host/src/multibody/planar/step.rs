@@ -119,11 +119,26 @@ impl PlanarSimulation {
     /// Torques of springs, dampers and stops.
     fn find_laws(&mut self, h: f64) {
         let half = 0.5 * h;
+        for Law { column, .. } in &self.laws {
+            self.own_impulses[*column] = half * self.torques[*column];
+            self.own_slopes[*column] = 0.0;
+        }
         for (Law { node, column, law, sign }, angle) in self.laws.iter().zip(&self.at.angles) {
             let way = self.way(*node, *column) * sign;
             let (torque, slope) = law.over_step(*angle, way, h);
-            self.own_impulses[*column] = half * (self.torques[*column] + sign * torque);
-            self.own_slopes[*column] = half * slope;
+            let (rotor, rotor_slope) = law.rotor(way, h);
+            self.own_impulses[*column] += sign * (half * torque - rotor);
+            self.own_slopes[*column] += half * slope - rotor_slope;
+        }
+    }
+
+    /// Rotors' momenta from what (1) takes from the joints' impulses to what (2) adds to them. The increments are still
+    /// those of the step.
+    pub(super) fn end_rotors(&mut self, h: f64) {
+        for Law { node, column, law, .. } in &self.laws {
+            if law.rotor_inertia != 0.0 {
+                self.own_impulses[*column] += 2.0 * law.rotor(self.way(*node, *column), h).0;
+            }
         }
     }
 

@@ -110,7 +110,8 @@ impl StepEquations for PlanarSimulation {
         for k in 0..self.nodes.len() {
             self.ends[k].all = self.end_momentum(k, h);
         }
-        self.gather_momenta(true);
+        self.end_rotors(h);
+        self.gather_momenta();
         if !self.touches.is_empty() {
             for (memory, touch) in self.at.memories.iter_mut().zip(&self.touches) {
                 *memory = touch.force.point;

@@ -38,6 +38,7 @@ impl Simulation {
             turned.go_on(angles, ratio);
         }
         self.trial.end_motors(&self.motors, &self.loads, h);
+        self.trial.end_rotors(&self.nodes, h);
         let coordinates = &self.at.coordinates;
         let step = Step {
             system: &self.system,

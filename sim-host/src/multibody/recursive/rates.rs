@@ -71,6 +71,9 @@ impl Simulation {
         }
         self.trial.strikes.iter_mut().for_each(Strike::forget);
         self.trial.own_slopes.fill(0.0);
+        for law in &self.trial.laws {
+            self.trial.own_slopes[law.column] -= law.law.rotor(0.0, h).1;
+        }
         let has_loops = !self.system.closures().is_empty();
         let Self { elimination, nodes, places, trial, at, corrections, loops, .. } = self;
         elimination
@@ -140,7 +143,10 @@ impl Simulation {
                 let touches = &self.trial.touches[node.sites.clone()];
                 for (touch, memory) in touches.iter().zip(&self.at.memories[node.sites.clone()]) {
                     let p = place.center + place.rotation * touch.arm;
-                    in_floor += memory.spring_energy(floor, &p);
+                    in_floor += match &touch.plane {
+                        None => memory.spring_energy(floor, &p),
+                        Some(plane) => plane.spring_energy(memory, floor, &p),
+                    };
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! What residuals in joint coordinates are measured by: see [`super::super::scale`].
 
-use super::super::scale::{Composite, Scale, away, not_too_thin};
+use super::super::scale::{Composite, Scale, away, not_too_thin, rotor_inertia};
 use super::super::system::System;
 use super::coordinates::Coordinates;
 use super::node::{Kind, Node};
@@ -49,6 +49,7 @@ impl Scales {
             all[k].add(&own);
             for (i, c) in node.columns.clone().enumerate() {
                 let about = |axis| own_moment(node, axis, joint.outboard.into());
+                let rotor = rotor_inertia(system, k);
                 // Least and largest.
                 let (low, high) = match (node.kind, i) {
                     (Kind::Prismatic, _) | (Kind::Floating, 0..3) => (all[k].mass, all[k].mass),
@@ -59,6 +60,7 @@ impl Scales {
                         (outboard + node.mass * arm * arm + least, all[k].moment)
                     }
                 };
+                let (low, high) = (low + rotor, high + rotor);
                 weights[c] = 1.0 / low.sqrt();
                 match (node.kind, i) {
                     (Kind::Prismatic, _) => moving[c] = high,

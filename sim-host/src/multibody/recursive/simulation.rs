@@ -231,7 +231,15 @@ impl Simulation {
             let angular = place.inertia * omega + place.to_center.cross(&linear);
             self.trial.ends[k].all = Pair { linear, angular };
         }
-        self.gather_momenta(|_| 0.0);
+        let mut of_rotors = vec![0.0; self.at.momenta.len()];
+        if self.trial.laws.iter().any(|law| law.law.rotor_inertia != 0.0) {
+            let states = self.states();
+            for law in &self.trial.laws {
+                let rate = self.system.joint_rate(law.node, &states, rates);
+                of_rotors[law.column] += law.law.rotor_inertia * rate;
+            }
+        }
+        self.gather_momenta(|c| of_rotors[c]);
         self.note_momenta();
         let h = self.at.progress.h;
         let turning: Vec<Vector3<f64>> =

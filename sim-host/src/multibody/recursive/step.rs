@@ -7,11 +7,12 @@
 //! p  = m d,   L = 2/h (c I v + v × I v)        momenta of (2.51) and of the midpoint rule, in world axes
 //! w⁻ = (p + ½h m g ẑ − ½h Σ f,  L − ½h Σ ℓ⁻ × f)        impulse on the body at the step's beginning
 //! w⁺ = (p − ½h m g ẑ + ½h Σ f,  L + ½h Σ ℓ⁺ × f)        momentum at its end
-//! r_j = H_j⁻ · Σ outboard w⁻ − π_j − ½h τ_j = 0           (1)
-//! π_j ← H_j⁺ · Σ outboard w⁺ + ½h τ_j                     (2)
+//! r_j = H_j⁻ · Σ outboard w⁻ + I_j θ_j/h − π_j − ½h τ_j = 0           (1)
+//! π_j ← H_j⁺ · Σ outboard w⁺ + I_j θ_j/h + ½h τ_j                     (2)
 //! ```
 //! (1) is (5.11) multiplied by the joints' columns `H` at the step's beginning, which takes the constraint
-//! forces away; that the constraints hold is in the coordinates. A body that turns freely keeps `L`.
+//! forces away; that the constraints hold is in the coordinates. A body that turns freely keeps `L`. A joint with a
+//! rotor of inertia `I` turns by `θ` over the step.
 //!
 //! Forces are taken at the points where they act, half at the step's beginning and half at its end, with
 //! the arms of either: then their moment about any point is that of the mean position.
@@ -112,8 +113,20 @@ impl Trial {
             let Law { node, column, law } = self.laws[k];
             let way = self.way(step.nodes, node);
             let (torque, slope) = law.over_step((step.angles)(node), way, step.h);
-            self.own_impulses[column] += half * torque;
-            self.own_slopes[column] += half * slope;
+            let (rotor, rotor_slope) = law.rotor(way, step.h);
+            self.own_impulses[column] += half * torque - rotor;
+            self.own_slopes[column] += half * slope - rotor_slope;
+        }
+    }
+
+    /// Rotors' momenta from what (1) takes from the joints' impulses to what (2) adds to them. The increments are still
+    /// those of the step.
+    pub fn end_rotors(&mut self, nodes: &[Node], h: f64) {
+        for k in 0..self.laws.len() {
+            let Law { node, column, law } = self.laws[k];
+            if law.rotor_inertia != 0.0 {
+                self.own_impulses[column] += 2.0 * law.rotor(self.way(nodes, node), h).0;
+            }
         }
     }
 
@@ -164,7 +177,10 @@ impl Trial {
                 touch.end = touch.begin + way;
                 let p = place.center + touch.begin;
                 let way = displacement + of_center + way;
-                touch.force = memory.over_step(floor, *switching, p, way, h);
+                touch.force = match &touch.plane {
+                    None => memory.over_step(floor, *switching, p, way, h),
+                    Some(plane) => plane.over_step(memory, (floor, *switching), p, way, h),
+                };
                 let half = touch.force.force * (0.5 * h);
                 linear -= half;
                 angular -= touch.begin.cross(&half);

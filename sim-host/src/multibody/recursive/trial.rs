@@ -5,8 +5,8 @@ use super::end::End;
 use super::node::Node;
 use super::stiffness::Pair;
 use super::strike::Strike;
-use crate::contact::{ContactPoint, StepForce};
-use crate::multibody::{JointLaw, System};
+use crate::contact::{ContactPoint, GroundPlane, StepForce};
+use crate::multibody::{JointLaw, Site, System};
 use nalgebra::{Matrix3, Vector3};
 
 /// A point that can touch the floor.
@@ -18,6 +18,8 @@ pub(super) struct Touch {
     pub begin: Vector3<f64>,
     pub end: Vector3<f64>,
     pub force: StepForce,
+    /// What it can touch, where that is not z = 0.
+    pub plane: Option<GroundPlane>,
 }
 
 /// A joint's law and its column.
@@ -47,7 +49,7 @@ pub(super) struct Trial {
     pub laws: Vec<Law>,
     /// Torques of spherical joints' motors at the step's beginning, world axes, with their first columns.
     pub motor_torques: Vec<(usize, Vector3<f64>)>,
-    /// By column: `½h τ`, and its derivative.
+    /// By column: `½h τ`, less rotors' momenta, and its derivative.
     pub own_impulses: Vec<f64>,
     pub own_slopes: Vec<f64>,
     /// `r`
@@ -57,8 +59,9 @@ pub(super) struct Trial {
 impl Trial {
     /// Of nothing yet.
     pub fn new(system: &System, nodes: &[Node], columns: usize) -> Self {
-        let touch = |position: [f64; 3]| Touch {
-            arm: position.into(),
+        let touch = |site: &Site| Touch {
+            plane: system.plane(site.link),
+            arm: site.position.into(),
             begin: Vector3::zeros(),
             end: Vector3::zeros(),
             force: StepForce {
@@ -70,7 +73,7 @@ impl Trial {
         Self {
             increments: vec![Increment::NONE; nodes.len()],
             ends: vec![End::AT_REST; nodes.len()],
-            touches: system.sites().iter().map(|site| touch(site.position)).collect(),
+            touches: system.sites().iter().map(touch).collect(),
             strikes: Strike::all(system),
             laws: system
                 .laws()

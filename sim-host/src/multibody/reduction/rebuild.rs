@@ -104,6 +104,9 @@ pub(super) fn rebuild(system: &System, fates: &[Fate]) -> Result<Reduced, System
         };
         let sites: Result<Vec<Site>, SystemError> = system.sites().iter().map(moved).collect();
         smaller = smaller.on_floor(*floor, *switching, sites?)?;
+        for (link, plane) in system.terrain() {
+            smaller = smaller.on_plane(moving(*link)?.0, *plane)?;
+        }
     }
     for (old, closure) in system.closures().iter().enumerate() {
         let outboard = carrier(closure.outboard)?;

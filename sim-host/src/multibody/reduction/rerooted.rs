@@ -104,6 +104,9 @@ pub fn rerooted(
     if let Some((floor, switching)) = system.ground() {
         let sites = system.sites().iter().map(|site| Site { link: number(site.link), ..*site });
         turned = turned.on_floor(*floor, *switching, sites.collect())?;
+        for (link, plane) in system.terrain() {
+            turned = turned.on_plane(number(*link), *plane)?;
+        }
     }
     for striker in system.strikers() {
         let mut moved = striker.clone();

@@ -28,6 +28,9 @@ pub enum NotSingle {
     /// Something holds it from elsewhere.
     #[error("a loop holds the only link")]
     Loop,
+    /// Trees alone stand on slopes.
+    #[error("its floor is not level")]
+    Terrain,
 }
 
 /// Why there is no motion of a single free body.
@@ -90,6 +93,9 @@ impl SingleBody {
         // A striker strikes another link, of which there is none.
         if !system.closures().is_empty() {
             return Err(NotSingle::Loop.into());
+        }
+        if !system.terrain().is_empty() {
+            return Err(NotSingle::Terrain.into());
         }
         let (mass, inertia) = (link.body.mass, Vector3::from(link.body.inertia));
         let q = Quaternion::from_array([x[3], x[4], x[5], x[6]]);

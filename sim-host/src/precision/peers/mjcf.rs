@@ -98,9 +98,10 @@ fn bodies(xml: &mut String, system: &System, inboard: Option<usize>) -> Result<(
                 let law = system.laws().iter().find(|(link, _)| *link == k);
                 let spring = law.map_or(String::new(), |(_, law)| {
                     let (stiffness, damping) = (law.stiffness, law.damping);
+                    let (rotor, friction) = (law.rotor_inertia, law.friction);
                     let degrees = law.rest.to_degrees();
                     format!(
-                        " stiffness=\"{stiffness:?}\" damping=\"{damping:?}\" springref=\"{degrees:?}\""
+                        " stiffness=\"{stiffness:?}\" damping=\"{damping:?}\" springref=\"{degrees:?}\" armature=\"{rotor:?}\" frictionloss=\"{friction:?}\""
                     )
                 });
                 let (pos, axis) = (three(*outboard), three(*axis));

@@ -86,7 +86,13 @@ impl BodyEntry {
 
 fn check_law(law: &JointLaw) -> Result<(), Misdescribed> {
     let fine = |x: f64| x.is_finite() && x >= 0.0;
-    for (field, value) in [("law.stiffness", law.stiffness), ("law.damping", law.damping)] {
+    let sizes = [
+        ("law.stiffness", law.stiffness),
+        ("law.damping", law.damping),
+        ("law.friction", law.friction),
+        ("law.rotor_inertia", law.rotor_inertia),
+    ];
+    for (field, value) in sizes {
         if !fine(value) {
             return Err(Misdescribed::new(field, "a finite number, zero or more"));
         }

@@ -35,6 +35,7 @@ impl Misdescribed {
         let field = match *error {
             SystemError::Inertia { link } => body(link, ".inertia_kg_m2"),
             SystemError::Law { link } => body(link, ".law"),
+            SystemError::Terrain { link } => body(link, ".contact_points_m"),
             SystemError::Order { link, .. } => body(link, ".inboard"),
             SystemError::OffManifold { link, .. }
             | SystemError::Gimbal { link }
