@@ -2,6 +2,8 @@
 
 mod cause;
 mod composed;
+mod joint_motion;
+mod layout;
 mod merged;
 mod model;
 mod moving;
@@ -11,6 +13,8 @@ mod start;
 mod tree;
 
 pub use cause::Cause;
+pub use joint_motion::JointMotion;
+pub use layout::{JointKind, Layout, LayoutKind, NamedJoint, NamedPoint};
 pub use merged::NotMerged;
 pub use model::{ChosenModel, MechanismModel, Started};
 pub use moving::Moving;

@@ -20,12 +20,18 @@ pub struct MechanismSample {
     pub configuration: Vec<f64>,
     /// `ẋ`
     pub velocity: Vec<f64>,
-    /// J
+    /// Kinetic energy, J.
+    pub kinetic: f64,
+    /// Kinetic and potential energy, J.
     pub energy: f64,
     /// As far as it is conserved, N·m·s.
     pub momentum: Vec<f64>,
     /// Largest constraint.
     pub constraint: f64,
+    /// States of the points that can touch the floor.
+    pub contacts: Vec<ContactState>,
+    /// Mean forces of the floor on them in the last step, N, world frame.
+    pub contact_forces: Vec<[f64; 3]>,
 }
 
 /// What a run leaves.
@@ -223,15 +229,18 @@ fn look(moving: &mut dyn Moving, run: &mut MechanismRun, is_sample: bool) -> Res
     run.constraint_max = run.constraint_max.max(constraint);
     if is_sample {
         let (configuration, velocity) = moving.state()?;
-        run.kinetic_max = run.kinetic_max.max(moving.kinetic(&configuration, &velocity));
-        let time_s = run.progress.time_s;
+        let kinetic = moving.kinetic(&configuration, &velocity);
+        run.kinetic_max = run.kinetic_max.max(kinetic);
         run.samples.push(MechanismSample {
-            time_s,
+            time_s: run.progress.time_s,
             configuration,
             velocity,
+            kinetic,
             energy,
             momentum,
             constraint,
+            contacts: moving.contacts().iter().map(|point| point.state).collect(),
+            contact_forces: moving.contact_forces(),
         });
     }
     Ok(())
