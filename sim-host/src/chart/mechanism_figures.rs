@@ -2,7 +2,7 @@
 
 use super::marks::marks;
 use super::{ChartError, Panel, Series, TimeSeries};
-use crate::mechanism::{JointKind, JointMotion, LayoutKind, MechanismSample, NamedJoint};
+use crate::mechanism::{JointKind, JointMotion, LayoutKind, MechanismSample, NamedJoint, Reaction};
 use crate::multibody::JointConstraint;
 use crate::record::{Event, MechanismRecord, Record};
 
@@ -22,11 +22,12 @@ pub struct MechanismFigure {
 }
 
 /// All figures; those of what a mechanism has not are left out.
-pub const MECHANISM_FIGURES: [MechanismFigure; 7] = [
+pub const MECHANISM_FIGURES: [MechanismFigure; 8] = [
     MechanismFigure { name: "motion", title: "motion", panels: motion },
     MechanismFigure { name: "joint-angles", title: "joints", panels: joint_positions },
     MechanismFigure { name: "joint-rates", title: "joint rates", panels: joint_rates },
     MechanismFigure { name: "joint-torques", title: "joint torques", panels: joint_torques },
+    MechanismFigure { name: "joint-forces", title: "what joints bear", panels: reactions },
     MechanismFigure { name: "energy", title: "energy", panels: energy },
     MechanismFigure { name: "conserved", title: "what is kept", panels: conserved },
     MechanismFigure { name: "ground-forces", title: "forces of the floor", panels: floor_forces },
@@ -77,8 +78,8 @@ fn motion(record: &MechanismRecord<'_>) -> Vec<Panel> {
         LayoutKind::Orientation => {
             vec![panel("Unit quaternion, world from body".to_owned(), "", quaternion(0))]
         }
-        LayoutKind::Rods(lengths) => {
-            let last = lengths.len() - 1;
+        LayoutKind::Rods(rods) => {
+            let last = rods.lengths.len() - 1;
             let title = format!("Position of {}", layout.bodies[last]);
             vec![panel(title, "m", numbers(3 * last, &["x", "y", "z"]))]
         }
@@ -118,11 +119,11 @@ fn scale(joint: &NamedJoint) -> Scale {
     }
 }
 
-/// Names of a joint's curves.
+/// Names of a joint's curves. A rod's azimuth leaps wherever it passes the vertical: it is left to the record.
 fn names(joint: &NamedJoint) -> Vec<String> {
     let name = &joint.name;
     match &joint.kind {
-        JointKind::Rod => vec![format!("{name}, polar"), format!("{name}, azimuth")],
+        JointKind::Rod => vec![format!("{name} from down")],
         JointKind::Bodies(of) => match of.constraint {
             JointConstraint::Universal { .. } => {
                 vec![format!("{name}, first"), format!("{name}, second")]
@@ -217,6 +218,32 @@ fn joint_torques(record: &MechanismRecord<'_>) -> Vec<Panel> {
     panel(title, "N·m or N", series.collect()).into_iter().collect()
 }
 
+fn reactions(record: &MechanismRecord<'_>) -> Vec<Panel> {
+    let joints = record.layout().joints.iter().enumerate();
+    let all = record.layout().joints.len();
+    let of = |value: fn(&Reaction) -> f64| -> Vec<Series> {
+        if !record.layout().has_reactions() {
+            return Vec::new();
+        }
+        // Where that is not known, as at the start, a curve goes on from what is known next.
+        let known = |i: usize| record.reactions()[i..].iter().flatten().next();
+        let curve = |(j, joint): (usize, &NamedJoint)| Series {
+            name: joint.name.clone(),
+            values: (0..record.samples().len())
+                .map(|i| known(i).map_or(0.0, |all| value(&all[j])))
+                .collect(),
+        };
+        joints.clone().take(MOST_CURVES).map(curve).collect()
+    };
+    let forces = panel(titled("Size of the force at each joint", all), "N", of(|r| r.force.norm()));
+    let has_torques = !matches!(record.layout().kind, LayoutKind::Rods(_));
+    let torques = has_torques.then(|| {
+        let title = titled("Size of the torque at each joint, its motor's included", all);
+        panel(title, "N·m", of(|r| r.torque.norm()))
+    });
+    forces.into_iter().chain(torques.flatten()).collect()
+}
+
 fn energy(record: &MechanismRecord<'_>) -> Vec<Panel> {
     let first = record.samples().first().map_or(0.0, |sample| sample.energy);
     let parts = vec![
@@ -238,7 +265,8 @@ fn conserved(record: &MechanismRecord<'_>) -> Vec<Panel> {
     let momenta = first.map(|sample| sample.momentum.clone()).unwrap_or_default();
     let axes: &[&str] = if momenta.len() == 1 { &["z"] } else { &["x", "y", "z"] };
     let samples = record.samples().iter();
-    let changes = samples.clone().flat_map(|s| s.momentum.iter().zip(&momenta).map(|(m, m0)| m - m0));
+    let changes =
+        samples.clone().flat_map(|s| s.momentum.iter().zip(&momenta).map(|(m, m0)| m - m0));
     let (factor, unit) = power_of_ten(changes, "N·m·s");
     let of_momentum = axes.iter().zip(&momenta).enumerate().map(|(i, (axis, start))| {
         curve(record, &format!("about {axis}"), move |s| factor * (s.momentum[i] - start))

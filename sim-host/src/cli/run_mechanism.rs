@@ -1,8 +1,8 @@
 //! `surefoot run` of a mechanism that nobody controls.
 
+use super::files::{keeps_record, made, write_run};
 use super::model::ModelName;
 use super::report::{SHOWN_EVENTS, other_end};
-use super::files::{keeps_record, made, write_run};
 use super::run::{Options, bar, ended, warn};
 use super::{bad_input, interrupt, recommended, say};
 use crate::chart::{MECHANISM_FIGURES, MechanismFigure};
@@ -83,8 +83,7 @@ fn write_files(
     let record = MechanismRecord::new(&scene.mechanism, &run.samples)
         .map_err(|error| format!("{}: {error}", scene.name))?;
     let advice = advice(run);
-    let report =
-        MechanismReport { scene, reason, warnings, run, record: &record, advice: &advice };
+    let report = MechanismReport { scene, reason, warnings, run, record: &record, advice: &advice };
     let drawn = |figure: &MechanismFigure| {
         let svg = figure.svg(&scene.name, &record, &run.events);
         let named = svg.map(|svg| svg.map(|svg| (figure.name, svg)));

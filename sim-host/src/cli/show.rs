@@ -37,8 +37,7 @@ fn shown(options: &Options) -> Result<String, String> {
         AnyScene::Mechanism(_) => "mechanism",
     };
     let (_, description) = scene.names();
-    let document =
-        serde_json::json!({ "scene": name, "kind": kind, "description": description, "toml": text });
+    let document = serde_json::json!({ "scene": name, "kind": kind, "description": description, "toml": text });
     Ok(format!("{document:#}\n"))
 }
 

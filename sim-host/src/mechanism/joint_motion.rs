@@ -124,14 +124,11 @@ mod tests {
     fn angles_and_rates_come_back() {
         let (u, w) = (Vector3::x(), Vector3::y());
         let home = Quaternion::from_axis_angle(Vector3::new(0.6, 0.0, 0.8), 0.7);
-        let on = at(
-            Quaternion::from_axis_angle(Vector3::z(), 0.4),
-            Vector3::new(0.3, -0.2, 0.5),
-        );
+        let on = at(Quaternion::from_axis_angle(Vector3::z(), 0.4), Vector3::new(0.3, -0.2, 0.5));
         for (alpha, beta) in [(0.5, -0.8), (-2.8, 1.2), (1.0, 3.0)] {
             let (alpha_rate, beta_rate) = (1.5, -2.5);
-            let turn = Quaternion::from_axis_angle(u, alpha)
-                .product(Quaternion::from_axis_angle(w, beta));
+            let turn =
+                Quaternion::from_axis_angle(u, alpha).product(Quaternion::from_axis_angle(w, beta));
             let orientation = on.orientation.product(turn.product(home));
             let second = Quaternion::from_axis_angle(u, alpha).rotate(w);
             let relative = u * alpha_rate + second * beta_rate;
@@ -152,8 +149,7 @@ mod tests {
             let orientation =
                 on.orientation.product(home.product(Quaternion::from_axis_angle(w, beta)));
             let spin = on.omega + orientation.rotate(w) * beta_rate;
-            let joint =
-                Joint { constraint: JointConstraint::Revolute { axis: w.into() }, ..joint };
+            let joint = Joint { constraint: JointConstraint::Revolute { axis: w.into() }, ..joint };
             let found = joint_motion(&joint, &on, &at(orientation, spin));
             assert!((found.positions[0] - beta).abs() < 1e-14, "{found:?}");
             assert!((found.rates[0] - beta_rate).abs() < 1e-14, "{found:?}");

@@ -29,10 +29,21 @@ pub struct Layout {
 pub enum LayoutKind {
     /// The unit quaternion of one body.
     Orientation,
-    /// Positions of point masses, each on a rod of this length (m) below the one before.
-    Rods(Vec<f64>),
+    /// Positions of point masses, each on a rod below the one before.
+    Rods(Rods),
     /// Position and unit quaternion of each body.
     Bodies(Box<System>),
+}
+
+/// Point masses on rods.
+#[derive(Clone, Debug)]
+pub struct Rods {
+    /// m
+    pub lengths: Vec<f64>,
+    /// kg
+    pub masses: Vec<f64>,
+    /// m/s²
+    pub gravity: f64,
 }
 
 /// A joint.
@@ -88,9 +99,11 @@ impl Layout {
                 points: Vec::new(),
                 kind: LayoutKind::Orientation,
             },
-            Mechanism::Pendulum { links, .. } => {
-                Self::of_rods(links.iter().map(|link| link.length_m).collect())
-            }
+            Mechanism::Pendulum { gravity_m_s2, links } => Self::of_rods(Rods {
+                lengths: links.iter().map(|link| link.length_m).collect(),
+                masses: links.iter().map(|link| link.mass_kg).collect(),
+                gravity: *gravity_m_s2,
+            }),
             Mechanism::Multibody(all) => {
                 let names = all.bodies.iter().map(|body| body.name.clone()).collect();
                 Self::of_system(mechanism, names, |name| format!("{name}, joint"))?
@@ -112,8 +125,9 @@ impl Layout {
         })
     }
 
-    fn of_rods(lengths: Vec<f64>) -> Self {
-        let numbered = |what: &str| (1..=lengths.len()).map(|k| format!("{what} {k}")).collect();
+    fn of_rods(rods: Rods) -> Self {
+        let numbered =
+            |what: &str| (1..=rods.lengths.len()).map(|k| format!("{what} {k}")).collect();
         let bodies: Vec<String> = numbered("mass");
         let joints: Vec<String> = numbered("rod");
         let columns = columns(&joints);
@@ -131,7 +145,7 @@ impl Layout {
             bodies,
             joints: joints.into_iter().zip(columns).enumerate().map(joint).collect(),
             points: Vec::new(),
-            kind: LayoutKind::Rods(lengths),
+            kind: LayoutKind::Rods(rods),
         }
     }
 
@@ -145,10 +159,8 @@ impl Layout {
         let torques = mechanism.torques();
         let mut joints = Vec::new();
         for (k, (link, body)) in system.links().iter().zip(&bodies).enumerate() {
-            let is_none = matches!(
-                link.joint.constraint,
-                JointConstraint::Floating | JointConstraint::Fixed
-            );
+            let is_none =
+                matches!(link.joint.constraint, JointConstraint::Floating | JointConstraint::Fixed);
             if is_none {
                 continue;
             }
@@ -302,9 +314,7 @@ impl NamedJoint {
         };
         let of = |positions: &[&str], rates: &[&str]| (named(positions), named(rates));
         match &self.kind {
-            JointKind::Rod => {
-                of(&["polar_rad", "azimuth_rad"], &["polar_radps", "azimuth_radps"])
-            }
+            JointKind::Rod => of(&["polar_rad", "azimuth_rad"], &["polar_radps", "azimuth_radps"]),
             JointKind::Bodies(joint) => match joint.constraint {
                 JointConstraint::Floating | JointConstraint::Fixed => of(&[], &[]),
                 JointConstraint::Revolute { .. } => of(&["rad"], &["radps"]),
@@ -312,11 +322,21 @@ impl NamedJoint {
                 JointConstraint::Universal { .. } => {
                     of(&["1_rad", "2_rad"], &["1_radps", "2_radps"])
                 }
-                JointConstraint::Spherical => of(
-                    &["q_s", "q_x", "q_y", "q_z"],
-                    &["w_x_radps", "w_y_radps", "w_z_radps"],
-                ),
+                JointConstraint::Spherical => {
+                    of(&["q_s", "q_x", "q_y", "q_z"], &["w_x_radps", "w_y_radps", "w_z_radps"])
+                }
             },
+        }
+    }
+
+    /// Names of what it bears, as columns: a rod bears a force only.
+    pub fn reaction_columns(&self) -> Vec<String> {
+        let named = |what: &str, unit: &str| {
+            ["x", "y", "z"].map(|axis| format!("{}_{what}_{axis}_{unit}", self.column))
+        };
+        match &self.kind {
+            JointKind::Rod => named("f", "n").to_vec(),
+            JointKind::Bodies(_) => [named("f", "n"), named("t", "nm")].concat(),
         }
     }
 

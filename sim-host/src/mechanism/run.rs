@@ -32,6 +32,26 @@ pub struct MechanismSample {
     pub contacts: Vec<ContactState>,
     /// Mean forces of the floor on them in the last step, N, world frame.
     pub contact_forces: Vec<[f64; 3]>,
+    /// Where it was one step earlier.
+    pub earlier: Earlier,
+}
+
+/// Where a motion was one step before a sample.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Earlier {
+    /// There was no step, or it was made in shorter ones.
+    Unknown,
+    /// Where the sample before has it.
+    SampleBefore,
+    /// At another time.
+    State {
+        /// s
+        time_s: f64,
+        /// `x`
+        configuration: Vec<f64>,
+        /// `ẋ`
+        velocity: Vec<f64>,
+    },
 }
 
 /// What a run leaves.
@@ -144,6 +164,7 @@ pub fn run_model(
         wall: Duration::ZERO,
     };
     let mut kept: [Option<Kept>; 2] = [None, None];
+    let mut earlier = Earlier::Unknown;
     let begun = Instant::now();
     for step in first..=steps.max(first) {
         let is_sample = step % every == 0 || step == steps;
@@ -154,7 +175,8 @@ pub fn run_model(
                 (a, b) => a.or(b),
             };
         }
-        if let Err(error) = look(moving.as_mut(), &mut run, is_sample) {
+        let was = std::mem::replace(&mut earlier, Earlier::Unknown);
+        if let Err(error) = look(moving.as_mut(), &mut run, is_sample.then_some(was)) {
             run.failure = Some(error);
             break;
         }
@@ -171,9 +193,17 @@ pub fn run_model(
             run.is_interrupted = true;
             break;
         }
+        let next_is_sample = (step + 1) % every == 0 || step + 1 == steps;
+        if next_is_sample {
+            earlier = now(moving.as_mut(), is_sample);
+        }
+        let split = moving.progress().split_steps;
         if let Err(error) = moving.step() {
             run.failure = Some(error);
             break;
+        }
+        if moving.progress().split_steps != split {
+            earlier = Earlier::Unknown;
         }
         watch.look(moving.as_ref(), &mut run.events);
     }
@@ -222,12 +252,29 @@ impl Watch {
     }
 }
 
-fn look(moving: &mut dyn Moving, run: &mut MechanismRun, is_sample: bool) -> Result<(), StepError> {
+/// Where a motion is, before the step to a sample.
+fn now(moving: &mut dyn Moving, is_sample: bool) -> Earlier {
+    if is_sample {
+        return Earlier::SampleBefore;
+    }
+    let time_s = moving.progress().time_s;
+    match moving.state() {
+        Ok((configuration, velocity)) => Earlier::State { time_s, configuration, velocity },
+        Err(_) => Earlier::Unknown,
+    }
+}
+
+/// Looks at a motion; a sample is taken if one is given where it was a step earlier.
+fn look(
+    moving: &mut dyn Moving,
+    run: &mut MechanismRun,
+    sample: Option<Earlier>,
+) -> Result<(), StepError> {
     run.progress = *moving.progress();
     let (energy, momentum, constraint) = moving.conserved()?;
     run.energy_range = [run.energy_range[0].min(energy), run.energy_range[1].max(energy)];
     run.constraint_max = run.constraint_max.max(constraint);
-    if is_sample {
+    if let Some(earlier) = sample {
         let (configuration, velocity) = moving.state()?;
         let kinetic = moving.kinetic(&configuration, &velocity);
         run.kinetic_max = run.kinetic_max.max(kinetic);
@@ -241,6 +288,7 @@ fn look(moving: &mut dyn Moving, run: &mut MechanismRun, is_sample: bool) -> Res
             constraint,
             contacts: moving.contacts().iter().map(|point| point.state).collect(),
             contact_forces: moving.contact_forces(),
+            earlier,
         });
     }
     Ok(())

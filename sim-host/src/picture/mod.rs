@@ -10,8 +10,8 @@ mod view;
 
 pub use frames::frames;
 pub use shown::{
-    DESIRED_FORCE_LENGTH, FORCE_LENGTH, Framing, Moment, Shown, ShownBody, ShownPoint, TORQUE_LENGTH,
-    Tracking,
+    DESIRED_FORCE_LENGTH, FORCE_LENGTH, Framing, Moment, Shown, ShownBody, ShownPoint,
+    TORQUE_LENGTH, Tracking,
 };
 pub use solid::Solid;
 pub use still::still;

@@ -12,7 +12,9 @@ const THIN: f64 = 0.012;
 /// A box of a body's inertia is drawn as far as it does not hide its joints: so much longer than its longest arm.
 const HIDES: f64 = 1.5;
 /// Distance of the eye, in the radius of what is to be seen.
-const DISTANCE: f64 = 4.4;
+const DISTANCE: f64 = 4.2;
+/// What goes along over a floor has so much more around it, to be seen moving on that.
+const SURROUNDINGS: f64 = 1.6;
 
 impl Shown {
     /// Of a mechanism, with its run's samples: these say how much room it takes.
@@ -92,9 +94,11 @@ impl Room {
             }
         }
         let own = body_radius(layout);
-        let whole = 0.5 * (high - low).norm() + own;
+        // It is seldom in its corners.
+        let whole = 0.55 * (high - low).max() + own;
         let follows = !held && whole > 2.5 * (spread + own);
-        let radius = if follows { spread + own } else { whole };
+        let along = if layout.points.is_empty() { 1.0 } else { SURROUNDINGS };
+        let radius = if follows { along * (spread + own) } else { whole };
         let radius = if radius.is_finite() && radius > 0.0 { radius } else { 1.0 };
         Self { middle: 0.5 * (low + high), radius, lowest: low.z - own, follows }
     }
@@ -136,11 +140,12 @@ fn is_held(layout: &Layout) -> bool {
 /// ball of its inertia.
 fn body_radius(layout: &Layout) -> f64 {
     match &layout.kind {
-        LayoutKind::Orientation => 0.6,
-        LayoutKind::Rods(lengths) => 0.1 * lengths.iter().fold(0.0, |m: f64, l| m.max(*l)),
+        LayoutKind::Orientation => 0.8,
+        LayoutKind::Rods(rods) => 0.1 * rods.lengths.iter().fold(0.0, |m: f64, l| m.max(*l)),
         LayoutKind::Bodies(system) => {
             let arms = (0..system.links().len()).map(|k| {
-                let largest = system.links()[k].body.inertia.iter().fold(0.0, |m: f64, i| m.max(*i));
+                let largest =
+                    system.links()[k].body.inertia.iter().fold(0.0, |m: f64, i| m.max(*i));
                 let ball = (2.5 * largest / system.links()[k].body.mass).sqrt();
                 arms(system, k).iter().map(Vector3::norm).fold(ball, f64::max)
             });
@@ -192,10 +197,10 @@ fn solids(mechanism: &Mechanism, layout: &Layout, thin: f64) -> Vec<Vec<Solid>> 
             let edge = 2.0 * radius_m;
             vec![vec![Solid::cuboid([edge, edge, *length_m])]; *links]
         }
-        (_, LayoutKind::Rods(lengths)) => {
+        (_, LayoutKind::Rods(rods)) => {
             let ball = Solid::ball(3.0 * thin);
             let rod = |length: &f64| Solid::rod(Vector3::zeros(), Vector3::z() * *length, thin);
-            lengths.iter().map(|length| vec![rod(length), ball.clone()]).collect()
+            rods.lengths.iter().map(|length| vec![rod(length), ball.clone()]).collect()
         }
         (_, LayoutKind::Bodies(system)) => {
             (0..system.links().len()).map(|k| of_body(system, k, thin)).collect()

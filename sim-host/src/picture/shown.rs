@@ -108,7 +108,8 @@ impl Shown {
         let on_floor = matches!(scene.feet, Feet::Floor { .. });
         let feet = robot.feet.iter().filter(|_| on_floor);
         let rotation = Quaternion::from_array(scene.set_point.orientation).to_matrix();
-        let goal = |shape: &Solid| shape.clone().moved(&rotation, scene.set_point.position_m.into());
+        let goal =
+            |shape: &Solid| shape.clone().moved(&rotation, scene.set_point.position_m.into());
         Self {
             bodies: bodies
                 .map(|(k, (name, solid))| ShownBody {

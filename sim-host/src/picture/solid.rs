@@ -44,8 +44,9 @@ impl Solid {
     /// A square prism of this thickness (m) from one point to another.
     pub fn rod(from: Vector3<f64>, to: Vector3<f64>, thickness: f64) -> Self {
         let along = to - from;
-        let rotation = Rotation3::rotation_between(&Vector3::z(), &along)
-            .unwrap_or_else(|| Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI));
+        let rotation = Rotation3::rotation_between(&Vector3::z(), &along).unwrap_or_else(|| {
+            Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+        });
         Self::cuboid([thickness, thickness, along.norm()])
             .moved(rotation.matrix(), 0.5 * (from + to))
     }

@@ -1,8 +1,8 @@
 //! A picture of a moment, as SVG.
 
+use super::Moment;
 use super::placed::{Placed, back_to_front};
 use super::view::View;
-use super::Moment;
 use crate::chart::OKABE_ITO;
 use crate::record::Record;
 use nalgebra::Vector3;
@@ -46,12 +46,7 @@ pub fn still(record: &dyn Record, time_s: f64) -> Result<String, DynamicsFault> 
     Ok(svg)
 }
 
-fn scene(
-    svg: &mut String,
-    record: &dyn Record,
-    time_s: f64,
-    moment: &Moment,
-) -> std::fmt::Result {
+fn scene(svg: &mut String, record: &dyn Record, time_s: f64, moment: &Moment) -> std::fmt::Result {
     let (shown, poses) = (record.shown(), &moment.poses);
     let center = Vector3::new(poses[0].position.x, poses[0].position.y, 0.75);
     let view = View::new(

@@ -1,7 +1,7 @@
 //! What a run of a mechanism has recorded.
 
 use super::recorded::{Details, JointReading, Record};
-use crate::mechanism::{JointMotion, Layout, LayoutKind, MechanismSample, StartFailure};
+use crate::mechanism::{JointMotion, Layout, LayoutKind, MechanismSample, Reaction, StartFailure};
 use crate::picture::{Moment, Shown};
 use crate::scene::Mechanism;
 use serde_json::{Value, json};
@@ -18,6 +18,8 @@ pub struct MechanismRecord<'a> {
     samples: &'a [MechanismSample],
     /// By sample and joint.
     joints: Vec<Vec<JointMotion>>,
+    /// Likewise.
+    reactions: Vec<Option<Vec<Reaction>>>,
 }
 
 impl<'a> MechanismRecord<'a> {
@@ -32,7 +34,8 @@ impl<'a> MechanismRecord<'a> {
         let layout = Layout::of(mechanism)?;
         let shown = Shown::of_mechanism(mechanism, &layout, samples);
         let joints = layout.joints_over(samples);
-        Ok(Self { shown, layout, samples, joints })
+        let reactions = (0..samples.len()).map(|i| layout.reactions(samples, i)).collect();
+        Ok(Self { shown, layout, samples, joints, reactions })
     }
 
     /// Its parts by name.
@@ -50,9 +53,30 @@ impl<'a> MechanismRecord<'a> {
         &self.joints
     }
 
+    /// What joints bear, by sample and joint.
+    pub fn reactions(&self) -> &[Option<Vec<Reaction>>] {
+        &self.reactions
+    }
+
     fn of_bodies(&self, numbers: &[&str]) -> impl Iterator<Item = String> {
         let bodies = self.layout.body_columns.iter();
         bodies.flat_map(|body| numbers.iter().map(move |number| format!("{body}_{number}")))
+    }
+
+    /// What joints bear at a sample, as fields; empty where that is not known.
+    fn of_reactions(&self, sample: usize) -> Vec<String> {
+        let joints = self.layout.joints.iter();
+        match &self.reactions[sample] {
+            _ if !self.layout.has_reactions() => Vec::new(),
+            None => vec![String::new(); joints.map(|joint| joint.reaction_columns().len()).sum()],
+            Some(all) => {
+                let numbers = joints.zip(all).flat_map(|(joint, reaction)| {
+                    let both = reaction.force.iter().chain(&reaction.torque);
+                    both.take(joint.reaction_columns().len())
+                });
+                numbers.map(f64::to_string).collect()
+            }
+        }
     }
 
     /// How many numbers of angular momentum are kept.
@@ -70,7 +94,7 @@ impl Record for MechanismRecord<'_> {
         self.samples.iter().map(|sample| sample.time_s).collect()
     }
 
-    /// Time; bodies, joints; their velocities; torques of driven joints; contact states and forces; energies, what is
+    /// Time; bodies, joints; their velocities; torques of driven joints, what joints bear; contact states and forces; energies, what is
     /// kept of angular momentum, the largest constraint.
     fn columns(&self) -> Vec<String> {
         let Layout { joints, points, kind, .. } = &self.layout;
@@ -85,6 +109,9 @@ impl Record for MechanismRecord<'_> {
         names.extend(self.of_bodies(twist));
         names.extend(joints.iter().flat_map(|joint| joint.columns().1));
         names.extend(joints.iter().filter(|j| j.is_driven()).map(|j| j.effort_column()));
+        if self.layout.has_reactions() {
+            names.extend(joints.iter().flat_map(|joint| joint.reaction_columns()));
+        }
         names.extend(points.iter().map(|point| format!("{}_state", point.column)));
         for point in points {
             names.extend(AXES.map(|axis| format!("{}_f_{axis}_n", point.column)));
@@ -100,6 +127,7 @@ impl Record for MechanismRecord<'_> {
     }
 
     fn row(&self, sample: usize) -> Vec<String> {
+        let reactions = self.of_reactions(sample);
         let (sample, joints) = (&self.samples[sample], &self.joints[sample]);
         let driven = self.layout.joints.iter().zip(joints).filter(|(joint, _)| joint.is_driven());
         let efforts: Vec<f64> = driven.map(|(joint, motion)| joint.effort(motion)).collect();
@@ -112,6 +140,7 @@ impl Record for MechanismRecord<'_> {
             .chain(joints.iter().flat_map(|joint| &joint.rates))
             .chain(&efforts);
         let mut fields: Vec<String> = before.map(f64::to_string).collect();
+        fields.extend(reactions);
         fields.extend(sample.contacts.iter().map(|state| state.number().to_string()));
         let after = sample
             .contact_forces
@@ -138,15 +167,16 @@ impl Record for MechanismRecord<'_> {
     /// Those of one coordinate, as viewers know no others.
     fn joints(&self, sample: usize) -> Vec<JointReading<'_>> {
         let all = self.layout.joints.iter().zip(&self.joints[sample]);
-        let readings = all.filter_map(|(joint, motion)| match (&motion.positions[..], &motion.rates[..]) {
-            ([position], [velocity]) => Some(JointReading {
-                name: &joint.name,
-                position: *position,
-                velocity: *velocity,
-                effort: joint.is_driven().then(|| joint.effort(motion)),
-            }),
-            _ => None,
-        });
+        let readings =
+            all.filter_map(|(joint, motion)| match (&motion.positions[..], &motion.rates[..]) {
+                ([position], [velocity]) => Some(JointReading {
+                    name: &joint.name,
+                    position: *position,
+                    velocity: *velocity,
+                    effort: joint.is_driven().then(|| joint.effort(motion)),
+                }),
+                _ => None,
+            });
         readings.collect()
     }
 

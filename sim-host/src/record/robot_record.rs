@@ -1,7 +1,7 @@
 //! What a run of a robot has recorded.
 
-use super::recorded::{Details, JointReading, Record};
 use super::Sample;
+use super::recorded::{Details, JointReading, Record};
 use crate::picture::{Moment, Shown, Tracking};
 use crate::robot::{Robot, SharedRobot};
 use crate::scene::Scene;
@@ -201,12 +201,12 @@ fn schema(robot: &Robot) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::write_csv;
-    use crate::scene::load;
     use crate::contact::ContactState;
     use crate::plant::BlockSample;
+    use crate::record::write_csv;
     use crate::robot::biped;
     use crate::scene::Outline;
+    use crate::scene::load;
 
     #[test]
     fn rows_have_the_headers_columns_and_give_back_the_numbers() {

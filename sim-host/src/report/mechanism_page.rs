@@ -92,7 +92,9 @@ fn facts(report: &MechanismReport<'_>) -> Vec<Fact> {
     }
     add("unknowns a step", run.unknowns.to_string());
     let (mean, most) = (run.progress.mean_iterations(), run.progress.most_iterations);
-    add("Newton iterations", format!("{mean:.2} on average, {most} at most"));
+    if most > 0 {
+        add("Newton iterations", format!("{mean:.2} on average, {most} at most"));
+    }
     if run.progress.split_steps > 0 {
         add("steps made in shorter ones", run.progress.split_steps.to_string());
     }
@@ -146,7 +148,11 @@ fn kept(run: &MechanismRun) -> Vec<[String; 3]> {
         ]);
     }
     let largest = with_minus(&format!("{:.1e}", run.constraint_max));
-    rows.push(["errors of joints (m or rad)".to_owned(), "0".to_owned(), format!("{largest} at most")]);
+    rows.push([
+        "errors of joints (m or rad)".to_owned(),
+        "0".to_owned(),
+        format!("{largest} at most"),
+    ]);
     rows
 }
 
@@ -184,5 +190,9 @@ fn note(report: &MechanismReport<'_>) -> String {
 }
 
 fn length(metres: f64) -> String {
-    if metres < 1.0 { format!("{} cm", rounded(1e2 * metres)) } else { format!("{} m", rounded(metres)) }
+    if metres < 1.0 {
+        format!("{} cm", rounded(1e2 * metres))
+    } else {
+        format!("{} m", rounded(metres))
+    }
 }
