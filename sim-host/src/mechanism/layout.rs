@@ -329,6 +329,11 @@ impl NamedJoint {
         }
     }
 
+    /// How many numbers of what it bears there are.
+    pub fn reaction_numbers(&self) -> usize {
+        if matches!(self.kind, JointKind::Rod) { 3 } else { 6 }
+    }
+
     /// Names of what it bears, as columns: a rod bears a force only.
     pub fn reaction_columns(&self) -> Vec<String> {
         let named = |what: &str, unit: &str| {

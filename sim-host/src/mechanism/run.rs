@@ -99,8 +99,8 @@ const LOST: f64 = 0.1;
 pub(super) const ROUND_OFF: f64 = 1e-9;
 /// Samples at most.
 const SAMPLES: u64 = 4000;
-/// Numbers in all samples at most, 8 bytes each.
-const MOST_NUMBERS: u64 = 100_000_000;
+/// Numbers in the states of all samples at most, 8 bytes each; joints and what they bear take twice that again.
+const MOST_NUMBERS: u64 = 20_000_000;
 
 /// Runs a scene; `follow` hears of the time that is reached, and may end the run there.
 ///

@@ -68,11 +68,11 @@ impl<'a> MechanismRecord<'a> {
         let joints = self.layout.joints.iter();
         match &self.reactions[sample] {
             _ if !self.layout.has_reactions() => Vec::new(),
-            None => vec![String::new(); joints.map(|joint| joint.reaction_columns().len()).sum()],
+            None => vec![String::new(); joints.map(|joint| joint.reaction_numbers()).sum()],
             Some(all) => {
                 let numbers = joints.zip(all).flat_map(|(joint, reaction)| {
                     let both = reaction.force.iter().chain(&reaction.torque);
-                    both.take(joint.reaction_columns().len())
+                    both.take(joint.reaction_numbers())
                 });
                 numbers.map(f64::to_string).collect()
             }
