@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 use surefoot_sim::closed_loop::{Run, Scalar, controller, run};
 use surefoot_sim::contact::Floor;
+use surefoot_sim::mechanism;
 use surefoot_sim::plant::BlockSample;
-use surefoot_sim::record::{Event, EventKind};
-use surefoot_sim::report::{Report, page};
-use surefoot_sim::scene::{Block, Feet, Scene, StruckBox, TorquesFrom, load};
+use surefoot_sim::record::{Event, EventKind, MechanismRecord};
+use surefoot_sim::report::{MechanismReport, Report, mechanism_page, page};
+use surefoot_sim::scene::{AnyScene, Block, Feet, Scene, StruckBox, TorquesFrom, load, open};
 
 /// Experiment 1, written once.
 pub fn experiment_1() -> &'static PathBuf {
@@ -58,6 +59,39 @@ pub fn with_a_block() -> &'static PathBuf {
         ]);
         written("with-a-block", &scene, &run)
     })
+}
+
+/// A second of mechanisms that differ in what they have: hanging rods, a loop, a box on a floor, point masses, one body.
+pub fn mechanisms() -> &'static [(&'static str, PathBuf)] {
+    static PAGES: OnceLock<Vec<(&str, PathBuf)>> = OnceLock::new();
+    PAGES.get_or_init(|| {
+        let names = ["chain", "four-bar", "box-drop", "n-pendulum", "rigid-body"];
+        names.map(|name| (name, mechanism_of(name))).to_vec()
+    })
+}
+
+fn mechanism_of(name: &str) -> PathBuf {
+    let AnyScene::Mechanism(mut scene) = open(name).expect("a built-in scene") else {
+        panic!("{name} is a mechanism")
+    };
+    scene.duration_s = 1.0;
+    // It begins at rest, close to an equilibrium.
+    if name == "four-bar" {
+        scene.duration_s = 7.5;
+    }
+    let run = mechanism::run(&scene, &mut |_| {}).expect("a start");
+    let record = MechanismRecord::new(&scene.mechanism, &run.samples).expect("as it was run");
+    let report = MechanismReport {
+        scene: &scene,
+        reason: "named by the scene",
+        warnings: &[],
+        run: &run,
+        record: &record,
+        advice: "",
+    };
+    let path = folder(name).join("report.html");
+    std::fs::write(&path, mechanism_page(&report).expect("a page")).expect("writable");
+    path
 }
 
 fn made() -> (Scene, Run) {

@@ -34,11 +34,36 @@ impl Findings {
 fn no_width_makes_the_page_scroll_sideways() {
     for page in [pages::experiment_1(), pages::with_a_block()] {
         for width in [320, 390, 768, 1280] {
-            let findings = Findings::of(page, width);
-            assert_eq!(findings.number("client-width"), f64::from(width));
-            assert!(findings.number("scroll-width") <= f64::from(width), "at {width} px");
-            assert_eq!(findings.get("error"), "none");
+            fits(page, width);
         }
+    }
+    for (_, page) in pages::mechanisms() {
+        for width in [390, 1280] {
+            fits(page, width);
+        }
+    }
+}
+
+fn fits(page: &Path, width: u32) {
+    let findings = Findings::of(page, width);
+    assert_eq!(findings.number("client-width"), f64::from(width));
+    let wide = findings.number("scroll-width");
+    assert!(wide <= f64::from(width), "{}: {wide} at {width} px", page.display());
+    assert_eq!(findings.get("error"), "none");
+}
+
+/// The controls of a mechanism's page are those of a robot's.
+#[test]
+#[ignore = "needs Chromium: `cargo xtask test --only browser`"]
+fn a_mechanism_s_replay_is_worked_like_a_robot_s() {
+    for (name, page) in pages::mechanisms().iter().filter(|(name, _)| *name != "four-bar") {
+        let findings = Findings::of(page, 800);
+        assert_eq!(findings.number("end"), 1.0, "{name}");
+        assert_eq!(findings.get("orbited"), "true", "{name}");
+        assert_eq!(findings.get("reset"), "true", "{name}");
+        assert_eq!(findings.number("sought"), 0.32, "{name}");
+        assert!(findings.number("played") > 0.5, "{name}");
+        assert_eq!(findings.get("error"), "none", "{name}");
     }
 }
 

@@ -4,6 +4,9 @@ use crate::chromium::screenshot;
 use crate::pages;
 use crate::picture::{is_block, is_body};
 
+/// Where the replay of a wide page is, at its top: so much of the window.
+const TOP: usize = 700;
+
 const WINDOW: (u32, u32) = (1280, 900);
 
 #[test]
@@ -33,4 +36,21 @@ fn a_block_is_seen_where_it_flies() {
     assert!(block("0.05") > 300, "{} pixels of the block", block("0.05"));
     let without = screenshot(pages::experiment_1(), "#t=0.05", WINDOW).count(is_block);
     assert!(without < 100, "{without} pixels of a block that is not there");
+}
+
+/// Mechanisms are seen, and move: pictures of two moments differ where the replay is, those of one do not.
+#[test]
+#[ignore = "needs Chromium: `cargo xtask test --only browser`"]
+fn mechanisms_are_seen_and_move() {
+    for (name, page) in pages::mechanisms() {
+        let window = (WINDOW.0, TOP as u32);
+        let at = |time: &str| screenshot(page, &format!("#t={time}"), window);
+        let (early, late) = if *name == "four-bar" { ("6.9", "7.3") } else { ("0.1", "0.5") };
+        let (first, second) = (at(early), at(late));
+        let body = first.count(is_body);
+        assert!(body > 150, "{name}: {body} pixels of the first body");
+        let changed = first.difference(&second);
+        assert!(changed > 400, "{name}: {changed} pixels differ between two moments");
+        assert_eq!(at(late).difference(&second), 0, "{name}");
+    }
 }

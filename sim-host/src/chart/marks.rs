@@ -6,7 +6,7 @@ use crate::record::{Event, EventKind};
 /// Marks that stay legible in one chart.
 const MOST_MARKS: usize = 16;
 
-/// Events of one kind at both feet this close together (s) are one mark.
+/// Events of one kind at both feet, or at several points, this close together (s) are one mark.
 const TOGETHER_S: f64 = 2e-3;
 
 /// The events that a chart marks: those of contact, not those of slipping, which come and go too fast.
@@ -17,14 +17,22 @@ pub fn marks(events: &[Event]) -> Vec<Mark> {
         let same = |(mark, kind): &&mut (Mark, EventKind)| {
             *kind == event.kind && (mark.time_s - event.time_s).abs() <= TOGETHER_S
         };
+        // Points have numbers.
+        let number = event.place.strip_prefix("point ");
         if let Some((mark, _)) = marks.iter_mut().rev().find(same) {
-            mark.label = format!("both {word}");
+            mark.label = match number {
+                None => format!("both {word}"),
+                Some(number) => {
+                    format!("{}, {number} {word}", mark.label.trim_end_matches(word).trim())
+                }
+            };
             continue;
         }
-        let place = match event.place.as_str() {
-            "left foot" => "left ",
-            "right foot" => "right ",
-            _ => "",
+        let place = match (event.place.as_str(), number) {
+            ("left foot", _) => "left ".to_owned(),
+            ("right foot", _) => "right ".to_owned(),
+            (_, Some(number)) => format!("{number} "),
+            _ => String::new(),
         };
         let mark = Mark { time_s: event.time_s, label: format!("{place}{word}") };
         marks.push((mark, event.kind));
@@ -66,5 +74,12 @@ mod tests {
         ];
         let labels: Vec<String> = marks(&events).into_iter().map(|mark| mark.label).collect();
         assert_eq!(labels, ["both down", "block strikes", "right heel down", "left heel down"]);
+        let events = [
+            event(0.1, EventKind::TouchDown, "point 2"),
+            event(0.101, EventKind::TouchDown, "point 12"),
+            event(0.1015, EventKind::LiftOff, "point 3"),
+        ];
+        let labels: Vec<String> = marks(&events).into_iter().map(|mark| mark.label).collect();
+        assert_eq!(labels, ["2, 12 down", "3 off"]);
     }
 }

@@ -10,6 +10,7 @@ mod controller;
 mod count_steps;
 mod count_ticks;
 mod dynamics;
+mod files;
 mod import;
 mod interrupt;
 mod list;
@@ -20,6 +21,7 @@ mod report;
 mod reproduce;
 mod run;
 mod run_mechanism;
+mod show;
 
 use clap::{Parser, Subcommand};
 use output::{complain, print, say};
@@ -37,6 +39,8 @@ struct Cli {
 enum Command {
     /// Run a scene and report (default: experiment-1)
     Run(run::Options),
+    /// Print a built-in scene as a file to start from
+    Show(show::Options),
     /// Reproduce the dissertation's tables and figures: ours beside the printed ones
     Reproduce(reproduce::Options),
     /// Chart what methods can do
@@ -75,6 +79,7 @@ pub fn main() -> ExitCode {
     match cli.command {
         None => run::run(&run::Options::parse_from(["run"])),
         Some(Command::Run(options)) => run::run(&options),
+        Some(Command::Show(options)) => show::show(&options),
         Some(Command::Reproduce(options)) => reproduce::reproduce(&options),
         Some(Command::Chart(options)) => chart::chart(&options),
         Some(Command::CountSteps(options)) => count_steps::count_steps(&options),

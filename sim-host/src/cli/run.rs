@@ -1,23 +1,21 @@
 //! `surefoot run`
 
 use super::controller::{ControllerOptions, Place};
+use super::files::{keeps_record, made, write_run};
 use super::interrupt::{self, INTERRUPTED};
 use super::model::ModelName;
 use super::report::{self, Report};
 use super::run_mechanism::run_mechanism;
 use super::{RUN_FAILED, bad_input, complain, recommended, say};
-use crate::chart::RUN_FIGURES;
+use crate::chart::{RUN_FIGURES, RunFigure};
 use crate::closed_loop::{self, Run};
 use crate::follow::Until;
 use crate::integrators::Method;
-use crate::picture::Shown;
-use crate::record::{MotionIdentity, SavedRun, write_csv, write_mcap};
+use crate::record::{MotionIdentity, RobotRecord, SavedRun};
 use crate::report::page;
 use crate::scene::{AnyScene, Distribution, Feet, Scene, TorquesFrom, open};
-use crate::written::{write_text, write_whole};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -230,28 +228,6 @@ pub(super) fn warn(warnings: &[String]) {
     }
 }
 
-/// Refuses a folder with a record that begins before the one that a run would write there, as it does that goes on from
-/// another one: what that one left would be lost.
-pub(super) fn keeps_record(folder: &Path, from: Option<&SavedRun>) -> Result<(), String> {
-    let Some(saved) = from else { return Ok(()) };
-    let record = folder.join("record.csv");
-    // A file that is no record loses nothing that a run has made.
-    let Some(begins) = first_time(&record).filter(|begins| *begins < saved.time_s) else {
-        return Ok(());
-    };
-    Err(format!(
-        "{}: it holds a record from {begins} s on, and this run's begins at {} s: --out must name another folder",
-        record.display(),
-        saved.time_s
-    ))
-}
-
-fn first_time(record: &Path) -> Option<f64> {
-    let mut rows = csv::Reader::from_path(record).ok()?;
-    let first = rows.records().next()?.ok()?;
-    first.get(0)?.parse().ok()
-}
-
 fn with_options(mut scene: Scene, options: &Options) -> Result<(Scene, String), String> {
     if options.links.is_some() {
         return Err(format!("{} has no links to choose a number of", scene.name));
@@ -312,33 +288,19 @@ pub(super) fn bar(scene: &str, duration_s: f64) -> ProgressBar {
     bar
 }
 
-/// Makes the folder.
-pub(super) fn made(folder: &Path) -> Result<(), String> {
-    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))
-}
-
-/// Takes the folder for oneself, as far as the system can, so that files of two runs at once do not mix. Systems that
-/// cannot open or lock folders are left with whole files of either run.
-pub(super) fn taken(folder: &Path) -> Option<File> {
-    File::open(folder).ok().filter(|folder| folder.lock().is_ok())
-}
-
 /// The report, the record in both forms, and the figures.
 fn write_files(folder: &Path, report: &Report<'_>) -> Result<Vec<PathBuf>, String> {
     let Report { scene, run, .. } = report;
-    let (_taken, robot) = (taken(folder), scene.robot());
-    let named = |name: &str| folder.join(name);
-    let (record, mcap, page_file) =
-        (named("record.csv"), named("record.mcap"), named("report.html"));
-    write_whole(&record, |to| write_csv(&robot, &run.samples, to))?;
-    write_whole(&mcap, |to| write_mcap(&Shown::of(scene), &run.samples, &run.events, to))?;
-    write_text(&page_file, &page(&report.page()).map_err(|error| error.to_string())?)?;
-    let mut files = vec![page_file, record, mcap];
-    for figure in RUN_FIGURES {
+    let (record, robot) = (RobotRecord::new(scene, &run.samples), scene.robot());
+    let drawn = |figure: &RunFigure| {
         let svg = figure.svg(&scene.name, &robot, &run.samples, &run.events);
-        let file = named(&format!("{}.svg", figure.name));
-        write_text(&file, &svg.map_err(|error| error.to_string())?)?;
-        files.push(file);
-    }
-    Ok(files)
+        svg.map(|svg| (figure.name, svg)).map_err(|error| error.to_string())
+    };
+    write_run(
+        folder,
+        &record,
+        &run.events,
+        || page(&report.page()).map_err(|error| error.to_string()),
+        || RUN_FIGURES.iter().map(drawn).collect(),
+    )
 }

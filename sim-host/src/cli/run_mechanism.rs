@@ -1,17 +1,18 @@
 //! `surefoot run` of a mechanism that nobody controls.
 
+use super::files::{keeps_record, made, write_run};
 use super::model::ModelName;
 use super::report::{SHOWN_EVENTS, other_end};
-use super::run::{Options, bar, ended, keeps_record, made, taken, warn};
+use super::run::{Options, bar, ended, warn};
 use super::{bad_input, interrupt, recommended, say};
-use crate::chart::write_mechanism_chart;
+use crate::chart::{MECHANISM_FIGURES, MechanismFigure};
 use crate::follow::Until;
 use crate::integrators::Method;
 use crate::mechanism::{Cause, ChosenModel, MechanismRun, run_model};
-use crate::record::write_mechanism_csv;
+use crate::record::MechanismRecord;
+use crate::report::{MechanismReport, mechanism_page};
 use crate::scene::{Mechanism, MechanismScene};
 use crate::stability::FailureKind;
-use crate::written::write_whole;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -44,7 +45,7 @@ fn run_to_its_end(scene: MechanismScene, options: &Options) -> Result<ExitCode, 
     let run = run_model(&scene, wanted, saved.as_ref(), &mut follow);
     bar.finish_and_clear();
     let run = run.map_err(|error| format!("{}: {error}", scene.name))?;
-    let files = write_files(&folder, &scene, &run)?;
+    let files = write_files(&folder, (&scene, &reason, &warnings), &run)?;
     options.write_saved(run.saved.as_ref())?;
     let failed = run.failure.as_ref().map(|f| format!("failed at {:.4} s: {f}", f.time_s));
     let status = ended(failed, run.is_interrupted.then_some(run.progress.time_s));
@@ -76,15 +77,25 @@ fn with_options(
 
 fn write_files(
     folder: &Path,
-    scene: &MechanismScene,
+    (scene, reason, warnings): (&MechanismScene, &str, &[String]),
     run: &MechanismRun,
 ) -> Result<Vec<PathBuf>, String> {
-    let _taken = taken(folder);
-    let record = folder.join("record.csv");
-    write_whole(&record, |to| write_mechanism_csv(&scene.mechanism, &run.samples, to))?;
-    let chart = write_mechanism_chart(folder, &scene.name, &scene.mechanism, &run.samples)
-        .map_err(|error| error.to_string())?;
-    Ok(vec![record, chart])
+    let record = MechanismRecord::new(&scene.mechanism, &run.samples)
+        .map_err(|error| format!("{}: {error}", scene.name))?;
+    let advice = advice(run);
+    let report = MechanismReport { scene, reason, warnings, run, record: &record, advice: &advice };
+    let drawn = |figure: &MechanismFigure| {
+        let svg = figure.svg(&scene.name, &record, &run.events);
+        let named = svg.map(|svg| svg.map(|svg| (figure.name, svg)));
+        named.map_err(|error| error.to_string()).transpose()
+    };
+    write_run(
+        folder,
+        &record,
+        &run.events,
+        || mechanism_page(&report).map_err(|error| error.to_string()),
+        || MECHANISM_FIGURES.iter().filter_map(drawn).collect(),
+    )
 }
 
 /// What to try after a failure: no step, and no method, that has not been tried.

@@ -3,7 +3,8 @@
 use super::{Comparison, experiment_1, experiment_2};
 use crate::chart::{ChartError, RUN_FIGURES};
 use crate::closed_loop::{Run, Scalar, controller, run};
-use crate::picture::{Shown, still};
+use crate::picture::still;
+use crate::record::RobotRecord;
 use crate::robot::biped;
 use crate::scene::{Outline, SceneError, TorquesFrom, load};
 use surefoot::dynamics::DynamicsFault;
@@ -91,7 +92,7 @@ pub fn experiment_2_figures() -> Result<Vec<RobotFigure>, RobotFigureFailure> {
     let (scene, run) = made("experiment-2")?;
     let (picture, names) = (EXPERIMENT_2[0], &EXPERIMENT_2[1..]);
     let mut figures = charts(names, "Experiment 2", &run, experiment_2::rows_of_figure)?;
-    let svg = still(&Shown::of(&scene), &run.samples, PICTURE_TIME)?;
+    let svg = still(&RobotRecord::new(&scene, &run.samples), PICTURE_TIME)?;
     figures.insert(0, RobotFigure { name: picture, svg, rows: experiment_2::experiment_2(&run) });
     Ok(figures)
 }

@@ -133,6 +133,10 @@ impl Moving for Merged {
         self.moving.contacts()
     }
 
+    fn contact_forces(&self) -> Vec<[f64; 3]> {
+        self.moving.contact_forces()
+    }
+
     fn checkpoint(&self) -> Option<SavedMotion> {
         self.moving.checkpoint()
     }

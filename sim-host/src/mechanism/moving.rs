@@ -48,6 +48,11 @@ pub trait Moving {
         &[]
     }
 
+    /// Mean forces of the floor on these points in the last step, N, world frame.
+    fn contact_forces(&self) -> Vec<[f64; 3]> {
+        Vec::new()
+    }
+
     /// The same motion from here on, in steps of another length, as of time zero; none of a motion that can only be
     /// started anew.
     fn in_steps_of(&self, _h: f64) -> Option<Box<dyn Moving>> {
@@ -193,6 +198,10 @@ impl Moving for Simulation {
 
     fn contacts(&self) -> &[ContactPoint] {
         Self::contacts(self)
+    }
+
+    fn contact_forces(&self) -> Vec<[f64; 3]> {
+        Self::contact_forces(self).to_vec()
     }
 
     fn checkpoint(&self) -> Option<SavedMotion> {

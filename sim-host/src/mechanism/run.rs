@@ -20,12 +20,38 @@ pub struct MechanismSample {
     pub configuration: Vec<f64>,
     /// `ẋ`
     pub velocity: Vec<f64>,
-    /// J
+    /// Kinetic energy, J.
+    pub kinetic: f64,
+    /// Kinetic and potential energy, J.
     pub energy: f64,
     /// As far as it is conserved, N·m·s.
     pub momentum: Vec<f64>,
     /// Largest constraint.
     pub constraint: f64,
+    /// States of the points that can touch the floor.
+    pub contacts: Vec<ContactState>,
+    /// Mean forces of the floor on them in the last step, N, world frame.
+    pub contact_forces: Vec<[f64; 3]>,
+    /// Where it was one step earlier.
+    pub earlier: Earlier,
+}
+
+/// Where a motion was one step before a sample.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Earlier {
+    /// There was no step, or it was made in shorter ones.
+    Unknown,
+    /// Where the sample before has it.
+    SampleBefore,
+    /// At another time.
+    State {
+        /// s
+        time_s: f64,
+        /// `x`
+        configuration: Vec<f64>,
+        /// `ẋ`
+        velocity: Vec<f64>,
+    },
 }
 
 /// What a run leaves.
@@ -73,8 +99,8 @@ const LOST: f64 = 0.1;
 pub(super) const ROUND_OFF: f64 = 1e-9;
 /// Samples at most.
 const SAMPLES: u64 = 4000;
-/// Numbers in all samples at most, 8 bytes each.
-const MOST_NUMBERS: u64 = 100_000_000;
+/// Numbers in the states of all samples at most, 8 bytes each; joints and what they bear take twice that again.
+const MOST_NUMBERS: u64 = 20_000_000;
 
 /// Runs a scene; `follow` hears of the time that is reached, and may end the run there.
 ///
@@ -138,6 +164,7 @@ pub fn run_model(
         wall: Duration::ZERO,
     };
     let mut kept: [Option<Kept>; 2] = [None, None];
+    let mut earlier = Earlier::Unknown;
     let begun = Instant::now();
     for step in first..=steps.max(first) {
         let is_sample = step % every == 0 || step == steps;
@@ -148,7 +175,8 @@ pub fn run_model(
                 (a, b) => a.or(b),
             };
         }
-        if let Err(error) = look(moving.as_mut(), &mut run, is_sample) {
+        let was = std::mem::replace(&mut earlier, Earlier::Unknown);
+        if let Err(error) = look(moving.as_mut(), &mut run, is_sample.then_some(was)) {
             run.failure = Some(error);
             break;
         }
@@ -165,9 +193,17 @@ pub fn run_model(
             run.is_interrupted = true;
             break;
         }
+        let next_is_sample = (step + 1) % every == 0 || step + 1 == steps;
+        if next_is_sample {
+            earlier = now(moving.as_mut(), is_sample);
+        }
+        let split = moving.progress().split_steps;
         if let Err(error) = moving.step() {
             run.failure = Some(error);
             break;
+        }
+        if moving.progress().split_steps != split {
+            earlier = Earlier::Unknown;
         }
         watch.look(moving.as_ref(), &mut run.events);
     }
@@ -216,22 +252,43 @@ impl Watch {
     }
 }
 
-fn look(moving: &mut dyn Moving, run: &mut MechanismRun, is_sample: bool) -> Result<(), StepError> {
+/// Where a motion is, before the step to a sample.
+fn now(moving: &mut dyn Moving, is_sample: bool) -> Earlier {
+    if is_sample {
+        return Earlier::SampleBefore;
+    }
+    let time_s = moving.progress().time_s;
+    match moving.state() {
+        Ok((configuration, velocity)) => Earlier::State { time_s, configuration, velocity },
+        Err(_) => Earlier::Unknown,
+    }
+}
+
+/// Looks at a motion; a sample is taken if one is given where it was a step earlier.
+fn look(
+    moving: &mut dyn Moving,
+    run: &mut MechanismRun,
+    sample: Option<Earlier>,
+) -> Result<(), StepError> {
     run.progress = *moving.progress();
     let (energy, momentum, constraint) = moving.conserved()?;
     run.energy_range = [run.energy_range[0].min(energy), run.energy_range[1].max(energy)];
     run.constraint_max = run.constraint_max.max(constraint);
-    if is_sample {
+    if let Some(earlier) = sample {
         let (configuration, velocity) = moving.state()?;
-        run.kinetic_max = run.kinetic_max.max(moving.kinetic(&configuration, &velocity));
-        let time_s = run.progress.time_s;
+        let kinetic = moving.kinetic(&configuration, &velocity);
+        run.kinetic_max = run.kinetic_max.max(kinetic);
         run.samples.push(MechanismSample {
-            time_s,
+            time_s: run.progress.time_s,
             configuration,
             velocity,
+            kinetic,
             energy,
             momentum,
             constraint,
+            contacts: moving.contacts().iter().map(|point| point.state).collect(),
+            contact_forces: moving.contact_forces(),
+            earlier,
         });
     }
     Ok(())

@@ -59,6 +59,10 @@ impl Moving for PlanarSimulation {
         Self::contacts(self)
     }
 
+    fn contact_forces(&self) -> Vec<[f64; 3]> {
+        Self::contact_forces(self)
+    }
+
     fn checkpoint(&self) -> Option<SavedMotion> {
         Some(SavedMotion::Planar(Self::checkpoint(self).clone()))
     }
@@ -111,6 +115,10 @@ impl Moving for SingleBody {
 
     fn contacts(&self) -> &[ContactPoint] {
         Self::contacts(self)
+    }
+
+    fn contact_forces(&self) -> Vec<[f64; 3]> {
+        Self::contact_forces(self).to_vec()
     }
 
     fn checkpoint(&self) -> Option<SavedMotion> {

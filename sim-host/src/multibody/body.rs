@@ -49,7 +49,7 @@ impl Body {
     }
 
     /// Linear and angular momentum about the world's origin: N·s, N·m·s.
-    pub(super) fn momentum(&self, x: &BodyState, v: &BodyState) -> ([f64; 3], [f64; 3]) {
+    pub(crate) fn momentum(&self, x: &BodyState, v: &BodyState) -> ([f64; 3], [f64; 3]) {
         let ((position, q), (velocity, q_dot)) = (split(x), split(v));
         let linear = velocity.map(|v| self.mass * v);
         let spin = FreeRigidBody { inertia: self.inertia }.discrete_momentum(&q, &q_dot, 0.0);

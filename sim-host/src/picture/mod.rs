@@ -1,6 +1,7 @@
-//! The robot as a thing to look at: solids on its bodies, stills, the poses that a replay plays.
+//! What moves as a thing to look at: solids on its bodies, stills, the poses that a replay plays.
 
 mod frames;
+mod of_mechanism;
 mod placed;
 mod shown;
 mod solid;
@@ -8,6 +9,9 @@ mod still;
 mod view;
 
 pub use frames::frames;
-pub use shown::{DESIRED_FORCE_LENGTH, FORCE_LENGTH, Shown, TORQUE_LENGTH};
+pub use shown::{
+    DESIRED_FORCE_LENGTH, FORCE_LENGTH, Framing, Moment, Shown, ShownBody, ShownPoint,
+    TORQUE_LENGTH, Tracking,
+};
 pub use solid::Solid;
 pub use still::still;

@@ -1,6 +1,6 @@
 //! Convex solids.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use serde::Serialize;
 
 /// A convex polyhedron in the frame of its body.
@@ -41,6 +41,68 @@ impl Solid {
         edges.iter().all(|edge| *edge > 0.0).then(|| Self::cuboid(edges.map(f64::sqrt)))
     }
 
+    /// A square prism of this thickness (m) from one point to another.
+    pub fn rod(from: Vector3<f64>, to: Vector3<f64>, thickness: f64) -> Self {
+        let along = to - from;
+        let rotation = Rotation3::rotation_between(&Vector3::z(), &along).unwrap_or_else(|| {
+            Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+        });
+        Self::cuboid([thickness, thickness, along.norm()])
+            .moved(rotation.matrix(), 0.5 * (from + to))
+    }
+
+    /// An icosahedron, as what has no shape of its own, of this radius (m) around the origin.
+    pub fn ball(radius: f64) -> Self {
+        let golden = 0.5 * (1.0 + 5.0_f64.sqrt());
+        let unit = radius / f64::hypot(1.0, golden);
+        let (a, b) = (unit, unit * golden);
+        let vertices = vec![
+            [-a, b, 0.0],
+            [a, b, 0.0],
+            [-a, -b, 0.0],
+            [a, -b, 0.0],
+            [0.0, -a, b],
+            [0.0, a, b],
+            [0.0, -a, -b],
+            [0.0, a, -b],
+            [b, 0.0, -a],
+            [b, 0.0, a],
+            [-b, 0.0, -a],
+            [-b, 0.0, a],
+        ];
+        const FACES: [[usize; 3]; 20] = [
+            [0, 11, 5],
+            [0, 5, 1],
+            [0, 1, 7],
+            [0, 7, 10],
+            [0, 10, 11],
+            [1, 5, 9],
+            [5, 11, 4],
+            [11, 10, 2],
+            [10, 7, 6],
+            [7, 1, 8],
+            [3, 9, 4],
+            [3, 4, 2],
+            [3, 2, 6],
+            [3, 6, 8],
+            [3, 8, 9],
+            [4, 9, 5],
+            [2, 4, 11],
+            [6, 2, 10],
+            [8, 6, 7],
+            [9, 8, 1],
+        ];
+        Self { vertices, faces: FACES.map(|face| face.to_vec()).to_vec() }
+    }
+
+    /// The same in another size: its longest edge along an axis is `length`, m.
+    pub fn scaled_to(self, length: f64) -> Self {
+        let longest = self.extent().into_iter().fold(0.0, f64::max);
+        let scale = if longest > 0.0 { length / longest } else { 1.0 };
+        let vertices = self.vertices.into_iter().map(|v| v.map(|x| x * scale)).collect();
+        Self { vertices, ..self }
+    }
+
     /// The same, elsewhere: turned first, then moved.
     pub fn moved(self, rotation: &Matrix3<f64>, by: Vector3<f64>) -> Self {
         let point = |p: [f64; 3]| (rotation * Vector3::from(p) + by).into();
@@ -75,6 +137,8 @@ mod tests {
     fn faces_look_outwards() {
         assert!(faces_outwards(&Solid::cuboid([0.1, 0.2, 0.3])));
         assert!(faces_outwards(&Solid::prism(&[[0.0, 0.0], [2.0, 0.0], [0.0, 1.0]], 0.4)));
+        assert!(faces_outwards(&Solid::ball(0.3)));
+        assert!(faces_outwards(&Solid::rod(Vector3::x(), Vector3::new(0.2, -0.4, -1.0), 0.1)));
     }
 
     /// A box has the moments `m (b² + c²)/12`.

@@ -1,10 +1,10 @@
 //! A picture of a moment, as SVG.
 
+use super::Moment;
 use super::placed::{Placed, back_to_front};
 use super::view::View;
-use super::{FORCE_LENGTH, Shown};
 use crate::chart::OKABE_ITO;
-use crate::record::Sample;
+use crate::record::Record;
 use nalgebra::Vector3;
 use std::fmt::Write;
 use surefoot::dynamics::DynamicsFault;
@@ -25,33 +25,29 @@ const RIGHT_LEG: Color = OKABE_ITO[3];
 const BLOCK: Color = OKABE_ITO[4];
 const GROUND_FORCE: Color = OKABE_ITO[1];
 
-/// Draws the robot, the block and the forces of the ground at the sample nearest to a time (s).
+/// Draws what moves, a block and the forces of the ground at the sample nearest to a time (s).
 ///
 /// # Errors
 /// A [`DynamicsFault`] for a sample that is no configuration.
-pub fn still(shown: &Shown, samples: &[Sample], time_s: f64) -> Result<String, DynamicsFault> {
-    let distance = |sample: &&Sample| (sample.time_s - time_s).abs();
-    let nearest = samples.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+pub fn still(record: &dyn Record, time_s: f64) -> Result<String, DynamicsFault> {
+    let times = record.times();
+    let distance = |k: &usize| (times[*k] - time_s).abs();
+    let nearest = (0..times.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let mut svg = format!(
         "<svg width=\"{WIDTH}\" height=\"{HEIGHT}\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
          xmlns=\"http://www.w3.org/2000/svg\" font-family=\"sans-serif\">\n\
          <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#FFFFFF\"/>\n"
     );
     if let Some(sample) = nearest {
-        let poses = shown.robot.tree.body_poses(&sample.positions)?;
         // Writing to a string cannot fail.
-        let _ = scene(&mut svg, shown, sample, &poses);
+        let _ = scene(&mut svg, record, times[sample], &record.moment(sample)?);
     }
     svg.push_str("</svg>\n");
     Ok(svg)
 }
 
-fn scene(
-    svg: &mut String,
-    shown: &Shown,
-    sample: &Sample,
-    poses: &[Pose<f64>],
-) -> std::fmt::Result {
+fn scene(svg: &mut String, record: &dyn Record, time_s: f64, moment: &Moment) -> std::fmt::Result {
+    let (shown, poses) = (record.shown(), &moment.poses);
     let center = Vector3::new(poses[0].position.x, poses[0].position.y, 0.75);
     let view = View::new(
         AZIMUTH_DEG.to_radians(),
@@ -60,15 +56,13 @@ fn scene(
         PIXELS_PER_METRE,
         [WIDTH / 2.0, 0.53 * HEIGHT],
     );
-    let mut solids: Vec<(Placed<'_>, Color)> = shown
-        .robot
-        .shapes
-        .iter()
-        .zip(poses)
-        .enumerate()
-        .map(|(k, (solid, pose))| (Placed::new(solid, pose), color(shown.robot.leg_of(k))))
-        .collect();
-    if let (Some(solid), Some(block)) = (&shown.block, &sample.block) {
+    let of_groups = [BODY, LEFT_LEG, RIGHT_LEG];
+    let mut solids: Vec<(Placed<'_>, Color)> = Vec::new();
+    for (body, pose) in shown.bodies.iter().zip(poses) {
+        let color = of_groups[usize::from(body.group) % of_groups.len()];
+        solids.extend(body.solids.iter().map(|solid| (Placed::new(solid, pose), color)));
+    }
+    if let (Some(solid), Some(block)) = (&shown.block, &moment.block) {
         let [x, y, z, s, i, j, k] = block.pose;
         let rotation = Quaternion::from_array([s, i, j, k]).to_matrix();
         let pose = Pose { rotation, position: Vector3::new(x, y, z) };
@@ -82,24 +76,19 @@ fn scene(
         let (solid, color) = &solids[k];
         paint_solid(svg, &view, solid, *color)?;
     }
-    ground_forces(svg, &view, shown, sample, poses)?;
+    for (point, force) in shown.points.iter().zip(&moment.forces) {
+        let (at, force) = (poses[point.body].transform_point(point.at), Vector3::from(*force));
+        if force.norm() > 1.0 {
+            arrow(svg, &view, at, at + force * shown.force_length, GROUND_FORCE)?;
+        }
+    }
     writeln!(
         svg,
-        "<text x=\"24\" y=\"40\" font-size=\"20\">t = {:.3} s</text>\n\
+        "<text x=\"24\" y=\"40\" font-size=\"20\">t = {time_s:.3} s</text>\n\
          <text x=\"24\" y=\"62\" font-size=\"14\" fill=\"#5A5A5A\">floor in squares of 20 cm; \
          arrows: forces of the ground, {:.0} cm for 100 N</text>",
-        sample.time_s,
-        1e4 * FORCE_LENGTH,
+        1e4 * shown.force_length,
     )
-}
-
-/// Left and right legs differ, as does the body.
-fn color(leg: Option<usize>) -> Color {
-    match leg {
-        None => BODY,
-        Some(leg) if leg % 2 == 0 => LEFT_LEG,
-        Some(_) => RIGHT_LEG,
-    }
 }
 
 fn floor(svg: &mut String, view: &View, center: Vector3<f64>) -> std::fmt::Result {
@@ -115,28 +104,6 @@ fn floor(svg: &mut String, view: &View, center: Vector3<f64>) -> std::fmt::Resul
                 svg,
                 "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" stroke=\"#D8D8D8\"/>"
             )?;
-        }
-    }
-    Ok(())
-}
-
-fn ground_forces(
-    svg: &mut String,
-    view: &View,
-    shown: &Shown,
-    sample: &Sample,
-    poses: &[Pose<f64>],
-) -> std::fmt::Result {
-    let Some(forces) = sample.corner_forces.as_ref().filter(|_| shown.has_contacts) else {
-        return Ok(());
-    };
-    for (foot, forces) in shown.robot.feet.iter().zip(forces) {
-        for (point, force) in foot.points.iter().zip(forces) {
-            let at = poses[foot.body].transform_point(point.at);
-            let force = Vector3::from(*force);
-            if force.norm() > 1.0 {
-                arrow(svg, view, at, at + force * FORCE_LENGTH, GROUND_FORCE)?;
-            }
         }
     }
     Ok(())
@@ -226,6 +193,7 @@ fn hex((red, green, blue): Color, brightness: f64) -> String {
 mod tests {
     use super::*;
     use crate::closed_loop::{Scalar, controller, run};
+    use crate::record::RobotRecord;
     use crate::scene::load;
 
     #[test]
@@ -233,13 +201,13 @@ mod tests {
         let mut scene = load("experiment-1").expect("a built-in scene");
         scene.duration_s = 0.4;
         let run = run(&scene, controller(&scene, Scalar::F64).as_mut(), &mut |_| {});
-        let svg = still(&Shown::of(&scene), &run.samples, 0.3203).expect("a picture");
+        let svg = still(&RobotRecord::new(&scene, &run.samples), 0.3203).expect("a picture");
         assert!(svg.contains("t = 0.320 s"));
         // Of each of 13 solids at least two faces are seen, and all throw shadows.
         assert!(svg.matches("<polygon").count() > 13 * (2 + 6));
         assert_eq!(svg.matches("<path").count(), 2 * 8, "an arrow at each corner, with its head");
         assert!(!svg.contains("NaN"));
-        let nothing = still(&Shown::of(&scene), &[], 0.3).expect("an empty picture");
+        let nothing = still(&RobotRecord::new(&scene, &[]), 0.3).expect("an empty picture");
         assert_eq!(nothing.matches("<polygon").count(), 0);
     }
 }

@@ -1,138 +1,19 @@
-//! The record as CSV: one row a tick, one named column a number, units in the names.
+//! The record as CSV: one row a sample, one named column a number, units in the names.
 
-use super::Sample;
-use crate::robot::Robot;
+use super::Record;
 use std::io::Write;
 
-const AXES: [&str; 3] = ["x", "y", "z"];
-const BLOCK: [&str; 10] = [
-    "block_x_m",
-    "block_y_m",
-    "block_z_m",
-    "block_q_s",
-    "block_q_x",
-    "block_q_y",
-    "block_q_z",
-    "block_f_x_n",
-    "block_f_y_n",
-    "block_f_z_n",
-];
-
-/// Writes all samples of a robot. Columns of what a run has not, such as a block, are empty. Numbers are printed with as many digits as give back the same f64.
+/// Writes all samples. Columns of what a run has not, such as a block, are empty. Numbers are printed with as many digits
+/// as give back the same f64.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_csv(robot: &Robot, samples: &[Sample], to: impl Write) -> Result<(), ::csv::Error> {
+pub fn write_csv(record: &dyn Record, to: impl Write) -> Result<(), ::csv::Error> {
     let mut writer = ::csv::Writer::from_writer(to);
-    writer.write_record(header(robot))?;
-    for sample in samples {
-        writer.write_record(row(robot, sample))?;
+    writer.write_record(record.columns())?;
+    for sample in 0..record.times().len() {
+        writer.write_record(record.row(sample))?;
     }
     writer.flush()?;
     Ok(())
-}
-
-fn header(robot: &Robot) -> Vec<String> {
-    let mut names = vec!["time_s".to_owned()];
-    let mut add = |list: &[&str]| names.extend(list.iter().map(|name| (*name).to_owned()));
-    add(&["x_m", "y_m", "z_m", "q_s", "q_x", "q_y", "q_z"]);
-    let joints = |suffix: &str| -> Vec<String> {
-        robot.columns.iter().map(|joint| format!("{joint}_{suffix}")).collect()
-    };
-    names.extend(joints("rad"));
-    let mut add = |list: &[&str]| names.extend(list.iter().map(|name| (*name).to_owned()));
-    add(&["v_x_mps", "v_y_mps", "v_z_mps", "w_x_radps", "w_y_radps", "w_z_radps"]);
-    names.extend(joints("radps"));
-    names.extend(joints("nm"));
-    let mut add = |list: &[&str]| names.extend(list.iter().map(|name| (*name).to_owned()));
-    add(&["desired_f_x_n", "desired_f_y_n", "desired_f_z_n"]);
-    add(&["desired_t_x_nm", "desired_t_y_nm", "desired_t_z_nm"]);
-    add(&["e_x_m", "e_y_m", "e_z_m", "e_q_s", "e_q_x", "e_q_y", "e_q_z"]);
-    names.extend(robot.feet.iter().map(|foot| format!("{}_n", foot.column)));
-    names.extend(["kinetic_j", "potential_j"].map(str::to_owned));
-    let points = || robot.feet.iter().flat_map(|foot| &foot.points);
-    names.extend(points().map(|point| format!("{}_state", point.column)));
-    for point in points() {
-        names.extend(AXES.iter().map(|axis| format!("{}_f_{axis}_n", point.column)));
-    }
-    names.extend(BLOCK.iter().map(|name| (*name).to_owned()));
-    names
-}
-
-fn row(robot: &Robot, sample: &Sample) -> Vec<String> {
-    let points: usize = robot.points_of_feet().iter().sum();
-    let numbers = std::iter::once(&sample.time_s)
-        .chain(&sample.positions)
-        .chain(&sample.velocities)
-        .chain(&sample.torques)
-        .chain(&sample.desired_wrench)
-        .chain(&sample.position_error)
-        .chain(&sample.orientation_error)
-        .chain(&sample.foot_forces)
-        .chain(&sample.energy);
-    let mut fields: Vec<String> = numbers.map(f64::to_string).collect();
-    match &sample.contacts {
-        Some(contacts) => {
-            fields.extend(contacts.iter().flatten().map(|state| state.number().to_string()));
-        }
-        None => fields.extend(std::iter::repeat_n(String::new(), points)),
-    }
-    let forces = sample.corner_forces.iter().flatten().flatten().flatten();
-    fields.extend(forces.map(f64::to_string));
-    if sample.corner_forces.is_none() {
-        fields.extend(std::iter::repeat_n(String::new(), 3 * points));
-    }
-    match &sample.block {
-        Some(block) => {
-            fields.extend(block.pose.iter().chain(&block.force).map(f64::to_string));
-        }
-        None => fields.extend(std::iter::repeat_n(String::new(), BLOCK.len())),
-    }
-    fields
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::contact::ContactState;
-    use crate::plant::BlockSample;
-    use crate::robot::biped;
-    use crate::scene::Outline;
-
-    #[test]
-    fn rows_have_the_headers_columns_and_give_back_the_numbers() {
-        let mut sample = Sample {
-            time_s: 0.1 + 0.2,
-            positions: vec![1.0 / 3.0; 19],
-            velocities: vec![2.0; 18],
-            torques: vec![3.0; 12],
-            desired_wrench: [4.0; 6],
-            position_error: [5.0; 3],
-            orientation_error: [6.0; 4],
-            foot_forces: vec![7.0; 2],
-            contacts: Some(vec![vec![ContactState::Sticking; 4]; 2]),
-            energy: [8.0; 2],
-            corner_forces: Some(vec![vec![[9.0, 10.0, 11.0]; 4]; 2]),
-            block: Some(BlockSample { pose: [12.0; 7], force: [13.0; 3] }),
-        };
-        let robot = biped(Outline::A);
-        let mut bytes = Vec::new();
-        write_csv(&robot, std::slice::from_ref(&sample), &mut bytes).expect("a vector takes all");
-        let text = String::from_utf8(bytes).expect("text");
-        let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
-        assert_eq!(lines.len(), 2);
-        assert_eq!(lines[0].len(), lines[1].len());
-        assert_eq!(lines[1][0].parse::<f64>().expect("a number"), 0.1 + 0.2);
-        let column = |name: &str| lines[0].iter().position(|x| *x == name).expect("a column");
-        assert_eq!(lines[1][column("right_knee_nm")], "3");
-        assert_eq!(lines[1][column("e_q_s")], "6");
-        assert_eq!(lines[1][column("right_toe_plus_y_state")], "4");
-        assert_eq!(lines[1][column("right_toe_plus_y_f_z_n")], "11");
-        assert_eq!(lines[1][column("block_q_z")], "12");
-        assert_eq!(lines[1][column("block_f_x_n")], "13");
-        sample.contacts = None;
-        sample.corner_forces = None;
-        sample.block = None;
-        assert_eq!(row(&robot, &sample).len(), header(&robot).len());
-    }
 }

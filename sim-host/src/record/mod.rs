@@ -4,7 +4,9 @@ mod csv;
 mod event;
 mod foxglove;
 mod identity;
-mod mechanism_csv;
+mod mechanism_record;
+mod recorded;
+mod robot_record;
 mod saved;
 mod settling;
 
@@ -12,7 +14,9 @@ pub use self::csv::write_csv;
 pub use event::{Event, EventKind};
 pub use foxglove::{RecordFailure, write_mcap};
 pub use identity::MotionIdentity;
-pub use mechanism_csv::write_mechanism_csv;
+pub use mechanism_record::MechanismRecord;
+pub use recorded::{Details, JointReading, Record};
+pub use robot_record::RobotRecord;
 pub use saved::{
     EncoderMemory, HardwareMemory, MeasuredBefore, SavedMotion, SavedRun, SupervisorMemory,
 };

@@ -41,8 +41,8 @@ element("replay-slider").addEventListener("input", (event) => {
   player.playing = false;
   seek(Number(event.target.value));
 });
-for (const id of ["show-forces", "show-wrench", "show-ghost"]) {
-  element(id).addEventListener("change", draw);
+for (const id of ["show-forces", "show-wrench", "show-ghost", "show-paths"]) {
+  element(id)?.addEventListener("change", draw);
 }
 
 element("replay").addEventListener("keydown", (event) => {

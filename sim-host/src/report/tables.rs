@@ -58,20 +58,12 @@ fn feet(feet: &Feet) -> String {
     }
 }
 
-/// A line of the table of peaks.
-pub(super) struct Peak {
-    pub(super) name: String,
-    pub(super) value: String,
-    pub(super) time: String,
-}
-
-/// Peaks of the desired wrench and of all joints.
-pub(super) fn peaks(robot: &Robot, run: &Run) -> Vec<Peak> {
+/// Peaks of the desired wrench and of all joints: name, value and time.
+pub(super) fn peaks(robot: &Robot, run: &Run) -> Vec<[String; 3]> {
     let Some(peaks) = Peaks::of(&run.samples) else { return Vec::new() };
-    let row = |name: String, peak: crate::closed_loop::Peak, unit: &str| Peak {
-        name,
-        value: with_minus(&format!("{:.1} {unit}", peak.value)),
-        time: format!("{:.3}", peak.time_s),
+    let row = |name: String, peak: crate::closed_loop::Peak, unit: &str| {
+        let value = with_minus(&format!("{:.1} {unit}", peak.value));
+        [name, value, format!("{:.3} s", peak.time_s)]
     };
     let mut rows = vec![row("desired force along z".to_owned(), peaks.force_z, "N")];
     for (axis, peak) in ["x", "y", "z"].iter().zip(peaks.torque) {
@@ -126,7 +118,7 @@ fn ours(row: Option<&Comparison>) -> Ours {
 }
 
 /// With a minus sign as wide as the figures.
-fn with_minus(number: &str) -> String {
+pub(super) fn with_minus(number: &str) -> String {
     number.replace('-', "−")
 }
 

@@ -26,13 +26,16 @@ function between(a, b, part) {
 const placed = (pose, point) => add(pose, turned(pose.slice(3), point));
 
 class Camera {
-  constructor() { this.reset(); }
+  constructor(distance) {
+    this.usual = distance;
+    this.reset();
+  }
 
-  // The robot faces -x; from its right and a little behind and above, where a thrown block is seen too.
+  // A robot faces -x; from its right and a little behind and above, where a thrown block is seen too.
   reset() {
     this.azimuth = 1.15;
     this.elevation = 0.2;
-    this.distance = 3.3;
+    this.distance = this.usual;
   }
 
   orbit(dx, dy) {
@@ -40,7 +43,10 @@ class Camera {
     this.elevation = Math.min(1.5, Math.max(-0.1, this.elevation + dy * 0.008));
   }
 
-  zoom(factor) { this.distance = Math.min(12, Math.max(1.2, this.distance * factor)); }
+  zoom(factor) {
+    const [near, far] = [0.36 * this.usual, 3.6 * this.usual];
+    this.distance = Math.min(far, Math.max(near, this.distance * factor));
+  }
 
   aim(target, width, height) {
     const [sa, ca] = [Math.sin(this.azimuth), Math.cos(this.azimuth)];
@@ -56,7 +62,7 @@ class Camera {
 
   project(point) {
     const arm = sub(point, this.target);
-    const scale = this.focus / Math.max(this.distance - dot(arm, this.towards), 0.05);
+    const scale = this.focus / Math.max(this.distance - dot(arm, this.towards), 0.015 * this.usual);
     return [
       this.middle[0] + scale * dot(arm, this.right),
       this.middle[1] - scale * dot(arm, this.up),
@@ -93,11 +99,15 @@ function order(a, b, eye) {
   return nearer;
 }
 
-// From the back to the front: one after the other that no other must precede.
+// Solids that can be told apart from each other in the time of a frame.
+const MOST_ORDERED = 40;
+
+// From the back to the front: one after the other that no other must precede. Of very many the farther are first.
 function painted(solids, eye) {
   solids.forEach((solid, i) => { solid.rank = i; });
   const far = (solid) => Math.hypot(...sub(solid.middle, eye));
   const waiting = [...solids].sort((a, b) => far(b) - far(a));
+  if (waiting.length > MOST_ORDERED) return waiting;
   const result = [];
   while (waiting.length > 0) {
     const free = waiting.findIndex((a) => waiting.every((b) => a === b || order(a, b, eye) < 0));
@@ -135,10 +145,10 @@ function paintSolid(context, camera, solid) {
   }
 }
 
-function paintShadow(context, camera, solid) {
+function paintShadow(context, camera, solid, ground) {
   context.fillStyle = "#e2e2e2";
   for (const face of solid.faces) {
-    outline(context, camera, face.indices.map((i) => [...solid.vertices[i].slice(0, 2), 0]));
+    outline(context, camera, face.indices.map((i) => [...solid.vertices[i].slice(0, 2), ground]));
     context.fill();
   }
 }
@@ -180,17 +190,30 @@ function paintArrow(context, camera, from, along, color, width) {
   }
 }
 
-function paintFloor(context, camera, center) {
-  const [x0, y0] = center.slice(0, 2).map((x) => Math.round(x / 0.2) * 0.2);
+function paintFloor(context, camera, center, square, ground) {
+  const [x0, y0] = center.slice(0, 2).map((x) => Math.round(x / square) * square);
+  const reach = 6 * square;
   context.lineWidth = 1;
   for (let k = -6; k <= 6; k += 1) {
-    const at = 0.2 * k;
+    const at = square * k;
     context.strokeStyle = "#d4d4d4";
-    outline(context, camera, [[x0 + at, y0 - 1.2, 0], [x0 + at, y0 + 1.2, 0]]);
+    outline(context, camera, [[x0 + at, y0 - reach, ground], [x0 + at, y0 + reach, ground]]);
     context.stroke();
-    outline(context, camera, [[x0 - 1.2, y0 + at, 0], [x0 + 1.2, y0 + at, 0]]);
+    outline(context, camera, [[x0 - reach, y0 + at, ground], [x0 + reach, y0 + at, ground]]);
     context.stroke();
   }
+}
+
+// Where something has been, fainter the longer ago.
+function paintPath(context, camera, points) {
+  context.lineWidth = 1.5;
+  context.strokeStyle = "#a0487c";
+  points.slice(1).forEach((point, i) => {
+    context.globalAlpha = 0.15 + 0.7 * ((i + 1) / points.length);
+    outline(context, camera, [points[i], point]);
+    context.stroke();
+  });
+  context.globalAlpha = 1;
 }
 
 // Contact points differ in shape as well as in colour: a ring is free, a square slides, a disc sticks.

@@ -98,6 +98,13 @@ impl AnyScene {
     }
 }
 
+/// The built-in scene with the most similar name, if one is similar.
+pub fn nearest_built_in(name: &str) -> Option<&'static str> {
+    let distance = |to: &'static str| (strsim::damerau_levenshtein(name, to), to);
+    let all = BUILT_IN.iter().map(|scene| distance(scene.name));
+    all.filter(|(distance, _)| *distance <= 5).min().map(|(_, name)| name)
+}
+
 /// A built-in scene by its name, or a scene file by its path.
 ///
 /// # Errors
@@ -108,12 +115,7 @@ pub fn open(name: &str) -> Result<AnyScene, SceneError> {
     }
     let path = Path::new(name);
     if !path.is_file() {
-        let nearest = BUILT_IN
-            .iter()
-            .map(|scene| (strsim::damerau_levenshtein(name, scene.name), scene.name))
-            .filter(|(distance, _)| *distance <= 5)
-            .min()
-            .map(|(_, name)| name);
+        let nearest = nearest_built_in(name);
         return Err(SceneError::Unknown { name: name.to_owned(), nearest });
     }
     let text = std::fs::read_to_string(path).map_err(|error| SceneError::Unreadable {

@@ -20,11 +20,11 @@ mod source;
 mod terrain;
 mod warnings;
 
-pub use builtin::{BuiltIn, built_in};
+pub use builtin::{BUILT_IN, BuiltIn, built_in};
 pub use differences::{BodyTable, JointTable, PlantTable};
 pub use disturbance::{Block, Push, StruckBox};
 pub use hardware::{Acting, JointStops, Sensing};
-pub use load::{AnyScene, SceneError, load, open, parse};
+pub use load::{AnyScene, SceneError, load, nearest_built_in, open, parse};
 pub use mechanism::{Flight, Link, MOST_LINKS, Mechanism, MechanismScene, MotionMatters};
 pub use multibody::{
     BodyEntry, BuildError, JointEntry, LoopEntry, LoopJoint, Misdescribed, Multibody,

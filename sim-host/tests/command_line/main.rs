@@ -9,6 +9,7 @@ mod firmware;
 mod importing;
 mod mechanisms;
 mod program;
+mod reports;
 mod reproduced;
 mod robots;
 mod wrong_input;

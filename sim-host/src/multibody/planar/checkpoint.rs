@@ -21,6 +21,8 @@ pub struct PlanarCheckpoint {
     pub(super) last_h: f64,
     /// By point that is seen in the plane.
     pub(super) memories: Vec<ContactPoint>,
+    /// Mean forces on each of the points that these stand for in the last step, N, world frame.
+    pub(super) forces: Vec<[f64; 3]>,
     pub(super) progress: Progress,
 }
 
@@ -35,6 +37,7 @@ impl PlanarCheckpoint {
         }
         self.last_h = other.last_h;
         self.memories.copy_from_slice(&other.memories);
+        self.forces.copy_from_slice(&other.forces);
         self.progress = other.progress;
     }
 
@@ -47,6 +50,7 @@ impl PlanarCheckpoint {
                 c.momenta.len(),
                 c.last.each_ref().map(Vec::len),
                 c.memories.len(),
+                c.forces.len(),
             )
         };
         sizes(self) == sizes(other) && self.progress.h == other.progress.h

@@ -102,6 +102,7 @@ impl PlanarSimulation {
             last: [(); PAST].map(|()| vec![0.0; columns]),
             last_h: h,
             memories: vec![ContactPoint::default(); touches.len()],
+            forces: vec![[0.0; 3]; touches.len()],
             progress: Progress::new(h),
         };
         let beside = states.iter().map(|x| {
@@ -214,6 +215,11 @@ impl PlanarSimulation {
     /// Memories of the contact sites, in the system's order; anchors in the plane's axes.
     pub fn contacts(&self) -> &[ContactPoint] {
         &self.contacts
+    }
+
+    /// Mean forces on the contact sites in the last step, N, world frame; allocates.
+    pub fn contact_forces(&self) -> Vec<[f64; 3]> {
+        self.part_of.iter().map(|part| self.at.forces[*part]).collect()
     }
 
     pub(super) fn tell_contacts(&mut self) {

@@ -2,6 +2,7 @@
 
 use super::super::stepping::{LEAST_TURN, StepEquations};
 use super::algebra::Turn;
+use super::checkpoint::PlanarCheckpoint;
 use super::node::Kind;
 use super::simulation::PlanarSimulation;
 use crate::integrators::Progress;
@@ -113,8 +114,11 @@ impl StepEquations for PlanarSimulation {
         self.end_rotors(h);
         self.gather_momenta();
         if !self.touches.is_empty() {
-            for (memory, touch) in self.at.memories.iter_mut().zip(&self.touches) {
+            let PlanarCheckpoint { memories, forces, .. } = &mut self.at;
+            for ((memory, felt), touch) in memories.iter_mut().zip(forces).zip(&self.touches) {
                 *memory = touch.force.point;
+                let force = &touch.force.force;
+                *felt = self.plane.told(&Vector2::new(force.x, force.z)).into();
             }
             self.tell_contacts();
         }

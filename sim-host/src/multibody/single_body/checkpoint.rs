@@ -45,19 +45,23 @@ pub struct BodyCheckpoint {
     pub(super) last_h: f64,
     /// By contact site.
     pub(super) memories: Vec<ContactPoint>,
+    /// Mean forces on them in the last step, N, world frame.
+    pub(super) forces: Vec<[f64; 3]>,
     pub(super) progress: Progress,
 }
 
 impl BodyCheckpoint {
     /// Takes another one's place without allocating.
     pub(super) fn copy_from(&mut self, other: &Self) {
-        let memories = std::mem::take(&mut self.memories);
-        *self = Self { memories, ..Self::without_memories(other) };
+        let (memories, forces) =
+            (std::mem::take(&mut self.memories), std::mem::take(&mut self.forces));
+        *self = Self { memories, forces, ..Self::without_contacts(other) };
         self.memories.copy_from_slice(&other.memories);
+        self.forces.copy_from_slice(&other.forces);
     }
 
-    fn without_memories(other: &Self) -> Self {
+    fn without_contacts(other: &Self) -> Self {
         // An empty vector does not allocate.
-        Self { memories: Vec::new(), ..*other }
+        Self { memories: Vec::new(), forces: Vec::new(), ..*other }
     }
 }

@@ -112,6 +112,7 @@ impl SingleBody {
             last: [first; 2],
             last_h: h,
             memories: vec![ContactPoint::default(); system.sites().len()],
+            forces: vec![[0.0; 3]; system.sites().len()],
             progress: Progress::new(h),
         };
         let touches = system.sites().iter().map(|site| Touch::new(site.position)).collect();
@@ -180,6 +181,7 @@ impl SingleBody {
     /// [`SystemError::OtherCheckpoint`].
     pub fn restore(&mut self, checkpoint: &BodyCheckpoint) -> Result<(), SystemError> {
         let fits = checkpoint.memories.len() == self.at.memories.len()
+            && checkpoint.forces.len() == self.at.forces.len()
             && checkpoint.progress.h == self.at.progress.h;
         if !fits {
             return Err(SystemError::OtherCheckpoint);
@@ -192,6 +194,11 @@ impl SingleBody {
     /// Memories of the contact sites, in the system's order.
     pub fn contacts(&self) -> &[ContactPoint] {
         &self.at.memories
+    }
+
+    /// Mean forces on the contact sites in the last step, N, world frame.
+    pub fn contact_forces(&self) -> &[[f64; 3]] {
+        &self.at.forces
     }
 
     /// The body's state.

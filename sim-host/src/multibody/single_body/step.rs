@@ -13,7 +13,7 @@
 
 use super::super::scale::{Scale, away};
 use super::super::stepping::{LEAST_TURN, StepEquations};
-use super::checkpoint::Move;
+use super::checkpoint::{BodyCheckpoint, Move};
 use super::simulation::SingleBody;
 use crate::contact::{ContactPoint, StepForce};
 use crate::integrators::Progress;
@@ -254,12 +254,14 @@ impl StepEquations for SingleBody {
     fn accept(&mut self, h: f64) {
         let Trial { by, c, .. } = self.trial;
         let mut impulse = Vector3::new(0.0, 0.0, -self.mass * self.system.gravity());
-        for (touch, memory) in self.touches.iter().zip(&mut self.at.memories) {
+        let BodyCheckpoint { memories, forces, spin, .. } = &mut self.at;
+        for ((touch, memory), felt) in self.touches.iter().zip(memories).zip(forces) {
             *memory = touch.force.point;
             let force = &touch.force.force;
+            *felt = (*force).into();
             if force.z != 0.0 {
                 impulse += force;
-                self.at.spin += (touch.begin + touch.end).cross(force) * (0.5 * h);
+                *spin += (touch.begin + touch.end).cross(force) * (0.5 * h);
             }
         }
         self.at.momentum += impulse * h;

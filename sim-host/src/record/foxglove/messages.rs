@@ -3,16 +3,14 @@
 use super::arrows::arrow;
 use super::nanoseconds;
 use crate::chart::OKABE_ITO;
-use crate::picture::{DESIRED_FORCE_LENGTH, FORCE_LENGTH, Shown, Solid, TORQUE_LENGTH};
-use crate::record::{Event, Sample};
-use crate::robot::Robot;
+use crate::picture::{DESIRED_FORCE_LENGTH, Moment, Shown, ShownBody, Solid, TORQUE_LENGTH};
+use crate::record::{Event, JointReading};
 use ::foxglove::messages::log::Level;
 use ::foxglove::messages::{
     Color, FrameTransform, FrameTransforms, JointState, JointStates, Log, Point3, Quaternion,
     SceneEntity, SceneUpdate, Timestamp, TriangleListPrimitive, Vector3 as FoxgloveVector,
 };
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
-use surefoot::spatial::Pose;
 
 const WORLD: &str = "world";
 const BLOCK: &str = "block";
@@ -43,25 +41,25 @@ fn color(index: usize, alpha: f64) -> Color {
 }
 
 /// Frames of all bodies, and of the block, in the world's.
-pub(super) fn transforms(robot: &Robot, sample: &Sample, poses: &[Pose<f64>]) -> FrameTransforms {
+pub(super) fn transforms(shown: &Shown, time_s: f64, moment: &Moment) -> FrameTransforms {
     let transform = |child: String, position: Vector3<f64>, rotation: Quaternion| FrameTransform {
-        timestamp: timestamp(sample.time_s),
+        timestamp: timestamp(time_s),
         parent_frame_id: WORLD.to_owned(),
         child_frame_id: child,
         translation: Some(vector(position)),
         rotation: Some(rotation),
     };
-    let mut transforms: Vec<FrameTransform> = robot
+    let mut transforms: Vec<FrameTransform> = shown
         .bodies
         .iter()
-        .zip(poses)
+        .zip(&moment.poses)
         .map(|(body, pose)| {
             let rotation = Rotation3::from_matrix_unchecked(pose.rotation);
             let rotation = quaternion(&UnitQuaternion::from_rotation_matrix(&rotation));
-            transform(frame(body), pose.position, rotation)
+            transform(frame(&body.name), pose.position, rotation)
         })
         .collect();
-    if let Some(block) = &sample.block {
+    if let Some(block) = &moment.block {
         let [x, y, z, w, i, j, k] = block.pose;
         let rotation = Quaternion { x: i, y: j, z: k, w };
         transforms.push(transform(BLOCK.to_owned(), Vector3::new(x, y, z), rotation));
@@ -69,77 +67,72 @@ pub(super) fn transforms(robot: &Robot, sample: &Sample, poses: &[Pose<f64>]) ->
     FrameTransforms { transforms }
 }
 
-/// Solids that go with their frames, and a ghost at the set point.
-pub(super) fn robot(shown: &Shown, time_s: f64) -> SceneUpdate {
-    let mut entities: Vec<SceneEntity> = shown
-        .robot
-        .bodies
-        .iter()
-        .zip(&shown.robot.shapes)
-        .enumerate()
-        .map(|(k, (body, solid))| {
-            let of_leg = match shown.robot.leg_of(k) {
-                None => color(2, 1.0),
-                Some(leg) if leg % 2 == 0 => color(5, 1.0),
-                Some(_) => color(3, 1.0),
-            };
-            solid_entity(time_s, &frame(body), body, solid, of_leg)
-        })
-        .collect();
+/// Solids that go with their frames, those that stand, and a ghost at the set point.
+pub(super) fn solids(shown: &Shown, time_s: f64) -> SceneUpdate {
+    const OF_GROUPS: [usize; 3] = [2, 5, 3];
+    let of_body = |body: &ShownBody| {
+        let color = color(OF_GROUPS[usize::from(body.group) % OF_GROUPS.len()], 1.0);
+        entity(time_s, &frame(&body.name), &body.name, &body.solids, color)
+    };
+    let mut entities: Vec<SceneEntity> = shown.bodies.iter().map(of_body).collect();
     if let Some(block) = &shown.block {
-        entities.push(solid_entity(time_s, BLOCK, BLOCK, block, color(4, 1.0)));
+        entities.push(entity(time_s, BLOCK, BLOCK, std::slice::from_ref(block), color(4, 1.0)));
     }
-    let [s, i, j, k] = shown.set_point.orientation;
-    let rotation = surefoot::spatial::Quaternion::from_array([s, i, j, k]).to_matrix();
-    let ghost = shown.robot.shapes[0].clone().moved(&rotation, shown.set_point.position_m.into());
-    entities.push(solid_entity(time_s, WORLD, "set point", &ghost, color(0, 0.15)));
+    if !shown.pivots.is_empty() {
+        entities.push(entity(time_s, WORLD, "pivots", &shown.pivots, color(0, 0.5)));
+    }
+    if let Some(goal) = &shown.goal {
+        let ghost = std::slice::from_ref(goal);
+        entities.push(entity(time_s, WORLD, "set point", ghost, color(0, 0.15)));
+    }
     SceneUpdate { deletions: Vec::new(), entities }
 }
 
-fn solid_entity(time_s: f64, frame: &str, id: &str, solid: &Solid, color: Color) -> SceneEntity {
-    // A convex face is a fan of triangles.
-    let triangles = solid.faces.iter().flat_map(|face| {
-        face.windows(2).skip(1).flat_map(|pair| [face[0] as u32, pair[0] as u32, pair[1] as u32])
-    });
+fn entity(time_s: f64, frame: &str, id: &str, solids: &[Solid], color: Color) -> SceneEntity {
+    let of_solid = |solid: &Solid| {
+        // A convex face is a fan of triangles.
+        let fan = |face: &Vec<usize>| -> Vec<u32> {
+            let pairs = face.windows(2).skip(1);
+            pairs.flat_map(|pair| [face[0] as u32, pair[0] as u32, pair[1] as u32]).collect()
+        };
+        TriangleListPrimitive {
+            points: solid.vertices.iter().map(|[x, y, z]| Point3 { x: *x, y: *y, z: *z }).collect(),
+            color: Some(color),
+            indices: solid.faces.iter().flat_map(fan).collect(),
+            ..TriangleListPrimitive::default()
+        }
+    };
     SceneEntity {
         timestamp: timestamp(time_s),
         frame_id: frame.to_owned(),
         id: id.to_owned(),
         frame_locked: true,
-        triangles: vec![TriangleListPrimitive {
-            points: solid.vertices.iter().map(|[x, y, z]| Point3 { x: *x, y: *y, z: *z }).collect(),
-            color: Some(color),
-            indices: triangles.collect(),
-            ..TriangleListPrimitive::default()
-        }],
+        triangles: solids.iter().map(of_solid).collect(),
         ..SceneEntity::default()
     }
 }
 
 /// The forces of the ground and of the block, and the wrench that the controller asks for. Each message
 /// replaces the one before, as the entity's name is the same.
-pub(super) fn forces(shown: &Shown, sample: &Sample, poses: &[Pose<f64>]) -> SceneUpdate {
+pub(super) fn forces(shown: &Shown, time_s: f64, moment: &Moment) -> SceneUpdate {
     let mut arrows = Vec::new();
-    if let Some(forces) = sample.corner_forces.as_ref().filter(|_| shown.has_contacts) {
-        for (foot, forces) in shown.robot.feet.iter().zip(forces) {
-            for (point, force) in foot.points.iter().zip(forces) {
-                let at = poses[foot.body].transform_point(point.at);
-                arrows.extend(arrow(at, Vector3::from(*force) * FORCE_LENGTH, color(1, 1.0)));
-            }
-        }
+    for (point, force) in shown.points.iter().zip(&moment.forces) {
+        let at = moment.poses[point.body].transform_point(point.at);
+        arrows.extend(arrow(at, Vector3::from(*force) * shown.force_length, color(1, 1.0)));
     }
-    let body = &poses[0];
-    let [fx, fy, fz, tx, ty, tz] = sample.desired_wrench;
-    let force = body.rotation * Vector3::new(fx, fy, fz) * DESIRED_FORCE_LENGTH;
-    let torque = body.rotation * Vector3::new(tx, ty, tz) * TORQUE_LENGTH;
-    arrows.extend(arrow(body.position, force, color(0, 1.0)));
-    arrows.extend(arrow(body.position, torque, color(2, 1.0)));
-    if let Some(block) = &sample.block {
+    if let (Some(body), Some(tracking)) = (moment.poses.first(), &moment.tracking) {
+        let [fx, fy, fz, tx, ty, tz] = tracking.desired_wrench;
+        let force = body.rotation * Vector3::new(fx, fy, fz) * DESIRED_FORCE_LENGTH;
+        let torque = body.rotation * Vector3::new(tx, ty, tz) * TORQUE_LENGTH;
+        arrows.extend(arrow(body.position, force, color(0, 1.0)));
+        arrows.extend(arrow(body.position, torque, color(2, 1.0)));
+    }
+    if let Some(block) = &moment.block {
         let at = Vector3::new(block.pose[0], block.pose[1], block.pose[2]);
-        arrows.extend(arrow(at, Vector3::from(block.force) * FORCE_LENGTH, color(4, 1.0)));
+        arrows.extend(arrow(at, Vector3::from(block.force) * shown.force_length, color(4, 1.0)));
     }
     let entity = SceneEntity {
-        timestamp: timestamp(sample.time_s),
+        timestamp: timestamp(time_s),
         frame_id: WORLD.to_owned(),
         id: "forces".to_owned(),
         arrows,
@@ -149,18 +142,15 @@ pub(super) fn forces(shown: &Shown, sample: &Sample, poses: &[Pose<f64>]) -> Sce
 }
 
 /// Angles, rates and torques of all joints.
-pub(super) fn joints(robot: &Robot, sample: &Sample) -> JointStates {
-    let joint = |(i, name): (usize, &String)| JointState {
-        name: name.clone(),
-        position: Some(sample.positions[7 + i]),
-        velocity: Some(sample.velocities[6 + i]),
+pub(super) fn joints(time_s: f64, readings: &[JointReading<'_>]) -> JointStates {
+    let joint = |reading: &JointReading<'_>| JointState {
+        name: reading.name.to_owned(),
+        position: Some(reading.position),
+        velocity: Some(reading.velocity),
         acceleration: None,
-        effort: Some(sample.torques[i]),
+        effort: reading.effort,
     };
-    JointStates {
-        timestamp: timestamp(sample.time_s),
-        joints: robot.joints.iter().enumerate().map(joint).collect(),
-    }
+    JointStates { timestamp: timestamp(time_s), joints: readings.iter().map(joint).collect() }
 }
 
 /// An event as a line of a log.

@@ -6,15 +6,15 @@
 //! | `/robot` | SceneUpdate: solids on the bodies' frames, the set point | once |
 //! | `/forces` | SceneUpdate: arrows in the world's frame | each frame of the replay |
 //! | `/joints` | JointStates: angle, rate and torque by name | each sample |
-//! | `/tracking` | JSON: errors, desired wrench, forces on the feet | each sample |
+//! | `/tracking` | JSON, of a robot: errors, desired wrench, forces on the feet | each sample |
+//! | `/conserved` | JSON, of a mechanism: energies, angular momentum, constraints | each sample |
 //! | `/events` | Log | each event |
 
 mod arrows;
 mod messages;
-mod tracking;
 
-use super::{Event, Sample};
-use crate::picture::{Shown, frames};
+use super::{Event, Record};
+use crate::picture::frames;
 use ::foxglove::Encode;
 use ::foxglove::messages::{FrameTransforms, JointStates, Log, SceneUpdate};
 use mcap::records::MessageHeader;
@@ -43,12 +43,11 @@ pub enum RecordFailure {
 /// # Errors
 /// A [`RecordFailure`].
 pub fn write_mcap<W: Write + Seek>(
-    shown: &Shown,
-    samples: &[Sample],
+    record: &dyn Record,
     events: &[Event],
     to: W,
 ) -> Result<(), RecordFailure> {
-    let robot = &shown.robot;
+    let (shown, times) = (record.shown(), record.times());
     let options = WriteOptions::new().compression(None).library("surefoot");
     let mut writer = Writer::with_options(to, options)?;
     let mut transforms = Topic::new::<FrameTransforms, W>(&mut writer, "/tf")?;
@@ -56,37 +55,30 @@ pub fn write_mcap<W: Write + Seek>(
     let mut forces = Topic::new::<SceneUpdate, W>(&mut writer, "/forces")?;
     let mut joints = Topic::new::<JointStates, W>(&mut writer, "/joints")?;
     let mut log = Topic::new::<Log, W>(&mut writer, "/events")?;
-    let schema = tracking::schema(robot).to_string();
-    let schema = writer.add_schema("surefoot.Tracking", "jsonschema", schema.as_bytes())?;
-    let mut tracking = Topic::with(&mut writer, schema, "/tracking", "json")?;
+    let details = record.details();
+    let schema = details.schema.to_string();
+    let schema = writer.add_schema(details.schema_name, "jsonschema", schema.as_bytes())?;
+    let mut detail = Topic::with(&mut writer, schema, details.topic, "json")?;
 
-    let mut frames = frames(samples).into_iter().peekable();
+    let mut frames = frames(&times, shown.bodies.len()).into_iter().peekable();
     let mut events = events.iter().peekable();
-    for (i, sample) in samples.iter().enumerate() {
-        while let Some(event) = events.next_if(|event| event.time_s <= sample.time_s) {
+    for (i, time) in times.iter().copied().enumerate() {
+        while let Some(event) = events.next_if(|event| event.time_s <= time) {
             log.write(&mut writer, event.time_s, &messages::log(event))?;
         }
-        let time = sample.time_s;
         if i == 0 {
-            solids.write(&mut writer, time, &messages::robot(shown, time))?;
+            solids.write(&mut writer, time, &messages::solids(shown, time))?;
         }
         if frames.next_if_eq(&i).is_some() {
             // A run that diverged ends in what is no configuration: there is nothing to show of it.
-            if let Ok(poses) = robot.tree.body_poses(&sample.positions) {
-                transforms.write(
-                    &mut writer,
-                    time,
-                    &messages::transforms(robot, sample, &poses),
-                )?;
-                forces.write(&mut writer, time, &messages::forces(shown, sample, &poses))?;
+            if let Ok(moment) = record.moment(i) {
+                let all = messages::transforms(shown, time, &moment);
+                transforms.write(&mut writer, time, &all)?;
+                forces.write(&mut writer, time, &messages::forces(shown, time, &moment))?;
             }
         }
-        joints.write(&mut writer, time, &messages::joints(robot, sample))?;
-        tracking.append(
-            &mut writer,
-            time,
-            tracking::message(robot, sample).to_string().as_bytes(),
-        )?;
+        joints.write(&mut writer, time, &messages::joints(time, &record.joints(i)))?;
+        detail.append(&mut writer, time, record.detail(i).to_string().as_bytes())?;
     }
     for event in events {
         log.write(&mut writer, event.time_s, &messages::log(event))?;
@@ -169,6 +161,7 @@ fn nanoseconds(time_s: f64) -> u64 {
 mod tests {
     use super::*;
     use crate::closed_loop::{Scalar, controller, run};
+    use crate::record::{RobotRecord, Sample};
     use crate::scene::load;
     use ::foxglove::Decode;
     use std::io::Cursor;
@@ -178,14 +171,16 @@ mod tests {
         scene.duration_s = 0.1;
         let run = run(&scene, controller(&scene, Scalar::F64).as_mut(), &mut |_| {});
         let mut bytes = Cursor::new(Vec::new());
-        write_mcap(&Shown::of(&scene), &run.samples, &run.events, &mut bytes).expect("written");
+        let record = RobotRecord::new(&scene, &run.samples);
+        write_mcap(&record, &run.events, &mut bytes).expect("written");
         (bytes.into_inner(), run.samples, run.events)
     }
 
     #[test]
     fn what_is_read_back_is_what_was_recorded() {
         let (bytes, samples, events) = written();
-        let frames = frames(&samples);
+        let times: Vec<f64> = samples.iter().map(|sample| sample.time_s).collect();
+        let frames = frames(&times, 13);
         let messages: Vec<mcap::Message<'_>> = mcap::MessageStream::new(&bytes)
             .expect("MCAP")
             .map(|message| message.expect("a message"))
