@@ -1,9 +1,7 @@
 //! What runs when no tick does: frames, orders, replies, logs.
 
 use crate::board::{self, Counter, Link};
-use crate::control::{
-    Measurement, Order, Posting, Receiving, Record, Sending, joint_limits,
-};
+use crate::control::{Measurement, Order, Posting, Receiving, Record, Sending, joint_limits};
 use crate::limiting;
 use crate::log::Log;
 use crate::no_init::{self, stack_bytes};

@@ -5,10 +5,10 @@ use surefoot::balance::{
     ContactLimit, Ground, JointLimits, Mode, Reason, Sole, StopReason, Thresholds,
 };
 use surefoot_link::{
-    BAUD, Clock, Counter, Crash, FaultLog, FromTarget, Identity, LineErrors, LoggedFault, MOST_FEET,
-    MOST_FRAME, Pacing, Receiver, Rejected, RobotId, Sender, Sensors, Settings, Status, Tally,
-    TickLimits, Torques, VERSION, WrenchSettings, frame_bytes, most_wire_bytes, shortest_period_us,
-    wire_us,
+    BAUD, Clock, Counter, Crash, FaultLog, FromTarget, Identity, LineErrors, LoggedFault,
+    MOST_FEET, MOST_FRAME, Pacing, Receiver, Rejected, RobotId, Sender, Sensors, Settings, Status,
+    Tally, TickLimits, Torques, VERSION, WrenchSettings, frame_bytes, most_wire_bytes,
+    shortest_period_us, wire_us,
 };
 
 const SESSION: u32 = 0x1234_5678;
@@ -212,7 +212,8 @@ fn status() -> Status {
 }
 
 fn all_fit<const N: usize>() {
-    let sensors = surefoot_link::ToTarget::Sensors { taken_us: u32::MAX, sensors: sensors::<N>(1.0) };
+    let sensors =
+        surefoot_link::ToTarget::Sensors { taken_us: u32::MAX, sensors: sensors::<N>(1.0) };
     let settings = surefoot_link::ToTarget::Configure(settings::<N>());
     let limits = surefoot_link::ToTarget::Limit(wrench_settings::<N>());
     let [torques, status] =
@@ -220,10 +221,7 @@ fn all_fit<const N: usize>() {
             .map(|message| most_wire_bytes(&message).expect("written"));
     let [sensors, settings, limits] =
         [sensors, settings, limits].map(|message| most_wire_bytes(&message).expect("written"));
-    println!(
-        "{N} joints: {sensors} {settings} {limits} {torques} {status} of {}",
-        frame_bytes(N)
-    );
+    println!("{N} joints: {sensors} {settings} {limits} {torques} {status} of {}", frame_bytes(N));
     for bytes in [sensors, settings, limits, torques, status] {
         assert!(bytes <= frame_bytes(N), "{bytes}");
     }
@@ -500,7 +498,8 @@ fn the_line_carries_a_measurement_a_tick() {
     let slow = shortest_period_us::<JOINTS>(921_600);
     assert_eq!((wire_us(171, 921_600), slow), (1856, 2320));
     // Twice the joints: 96 bytes more, and one that COBS needs.
-    let double = surefoot_link::ToTarget::Sensors { taken_us: u32::MAX, sensors: sensors::<24>(1.0) };
+    let double =
+        surefoot_link::ToTarget::Sensors { taken_us: u32::MAX, sensors: sensors::<24>(1.0) };
     assert_eq!(most_wire_bytes(&double), Some(171 + 96 + 1));
     assert_eq!(shortest_period_us::<24>(BAUD), (wire_us(268, BAUD) * 5).div_ceil(4));
     // The largest number has the largest frame: 2²⁸ and more take five bytes.

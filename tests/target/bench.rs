@@ -92,8 +92,7 @@ impl Bench {
     /// The plant moves by one tick under these torques, which are within their limits.
     pub fn obey(&mut self, torques: &Torques) {
         let joints = self.limits.joints.iter().flatten();
-        for (torque, JointLimits { torque: limit, .. }) in
-            torques.joint_torques.iter().zip(joints)
+        for (torque, JointLimits { torque: limit, .. }) in torques.joint_torques.iter().zip(joints)
         {
             assert!(torque.abs() <= *limit, "{torque} N·m, and the limit is {limit}");
         }

@@ -19,8 +19,7 @@ fn stops_within(
     for tick in 1.. {
         let torques = fault(&mut bench);
         if torques.mode == Mode::Active {
-            let pairs =
-                torques.joint_torques.iter().zip(&before.joint_torques);
+            let pairs = torques.joint_torques.iter().zip(&before.joint_torques);
             assert!(pairs.into_iter().all(|(now, before)| (now - before).abs() < 20.0));
             assert!(tick < ticks, "still active {tick} ticks after the fault");
             before = torques;
@@ -136,8 +135,7 @@ fn a_frozen_encoder() {
         },
         |bench| {
             let now = bench.sensors();
-            let (angle, rate) =
-                *held.get_or_insert((now.joint_angles[9], now.joint_rates[9]));
+            let (angle, rate) = *held.get_or_insert((now.joint_angles[9], now.joint_rates[9]));
             bench.tick(|sensors| {
                 sensors.joint_angles[9] = angle;
                 sensors.joint_rates[9] = rate;
@@ -355,7 +353,10 @@ fn orders_that_make_no_sense() {
     bad = good;
     bad.pacing = Pacing::FreeRunning;
     bad.period = 7e-4;
-    assert_eq!(refused(&mut bench, ToTarget::Configure(bad)), TooFast(shortest_period_us::<JOINTS>(BAUD)));
+    assert_eq!(
+        refused(&mut bench, ToTarget::Configure(bad)),
+        TooFast(shortest_period_us::<JOINTS>(BAUD))
+    );
     bad.period = 0.5;
     assert_eq!(refused(&mut bench, ToTarget::Configure(bad)), TooSlow(99_864));
     let scene = bench.scene.clone();

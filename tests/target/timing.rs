@@ -18,7 +18,9 @@ fn random(random: &mut Pcg64Mcg, knees: [f32; 2]) -> Sensors {
         orientation: [scalar, tilt[0], tilt[1], tilt[2]],
         velocity: std::array::from_fn(|_| within(1.0)),
         joint_angles: surefoot_link::by_joint(
-            &knees.map(|knee| [within(0.5), within(0.8), within(0.5), knee, within(0.5), within(0.8)]),
+            &knees.map(|knee| {
+                [within(0.5), within(0.8), within(0.5), knee, within(0.5), within(0.8)]
+            }),
             0.0,
         ),
         joint_rates: std::array::from_fn(|_| within(5.0)),

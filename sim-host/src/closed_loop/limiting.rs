@@ -82,8 +82,7 @@ impl Given {
             greatest_force: MOST_WEIGHTS * weight,
             friction: FRICTION_SHARE * friction(floor),
         };
-        let mut torques: Vec<f64> =
-            robot.limits.joints.iter().map(|joint| joint.torque).collect();
+        let mut torques: Vec<f64> = robot.limits.joints.iter().map(|joint| joint.torque).collect();
         if let Some(motors) = scene.acting.torque_limits_nm {
             for (torque, motor) in torques.iter_mut().zip(motors.into_iter().cycle()) {
                 *torque = torque.min(motor);

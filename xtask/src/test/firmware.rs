@@ -12,9 +12,8 @@ pub fn run(arm: &ArmToolchain) -> Result<String> {
     workspace::ignored_tests("target").run()?;
     workspace::ignored_tests("command_line").run()?;
     // These build firmware for robots of other projects.
-    robots::files()?
-        .given_to(workspace::ignored_tests("robots_on_target"))
-        .run()
-        .context("a robot of another project fails on the target, as is said above under its name")?;
+    robots::files()?.given_to(workspace::ignored_tests("robots_on_target")).run().context(
+        "a robot of another project fails on the target, as is said above under its name",
+    )?;
     Ok(format!("firmware in {emulator}"))
 }

@@ -42,18 +42,28 @@ fn write(out: &mut String, scene: &Scene, tree: &str) -> std::fmt::Result {
     writeln!(out, "/// What its supervisor allows: messages may be tighter, and no wider.")?;
     let limits = limits(&robot);
     writeln!(out, "pub const LIMITS: SafetyLimits<f32, LEGS> = {limits}.to_f32();\n")?;
-    writeln!(out, "/// Its soles, if they are rectangles: origin at the last joint, axes as the robot")?;
+    writeln!(
+        out,
+        "/// Its soles, if they are rectangles: origin at the last joint, axes as the robot"
+    )?;
     writeln!(out, "/// is described at home, m.")?;
     let soles = robot.soles().ok().map(|soles| format!("{soles:?}"));
     let soles = soles.map_or("None".to_owned(), |soles| format!("Some({soles})"));
     writeln!(out, "pub const SOLES: Option<[Sole<f32>; LEGS]> = {soles};\n")?;
-    writeln!(out, "/// After a reset: diagonals of the gain matrices for position (1/s²), velocity (1/s),")?;
+    writeln!(
+        out,
+        "/// After a reset: diagonals of the gain matrices for position (1/s²), velocity (1/s),"
+    )?;
     writeln!(out, "/// orientation (1/s²) and angular velocity (1/s).")?;
     writeln!(out, "pub const GAINS: [[f32; 3]; 4] = {:?};", gains(scene))?;
     writeln!(out, "/// The pose to hold after a reset: where the central body is (m), and its")?;
     writeln!(out, "/// quaternion, scalar first.")?;
     writeln!(out, "pub const POSITION: [f32; 3] = {:?};", pose.position)?;
-    writeln!(out, "/// See `POSITION`.\npub const ORIENTATION: [f32; 4] = {:?};", pose.orientation)?;
+    writeln!(
+        out,
+        "/// See `POSITION`.\npub const ORIENTATION: [f32; 4] = {:?};",
+        pose.orientation
+    )?;
     writeln!(out, "}}")
 }
 

@@ -3,8 +3,8 @@
 use super::Transport;
 use std::collections::VecDeque;
 use std::hash::{BuildHasher, Hasher, RandomState};
-use std::time::{Duration, Instant};
 use std::path::PathBuf;
+use std::time::{Duration, Instant};
 use surefoot_link::{
     Acknowledged, Clock, FromTarget, Identity, Injection, MOST_FRAME, Receiver, Rejected, RobotId,
     Sender, Sensors, Stages, Status, ToTarget, Torques,
@@ -237,7 +237,10 @@ impl<const JOINTS: usize> Target<JOINTS> {
     }
 
     /// The next frame, good or bad.
-    fn next(&mut self, patience: Duration) -> Result<Result<FromTarget<JOINTS>, Rejected>, LinkError> {
+    fn next(
+        &mut self,
+        patience: Duration,
+    ) -> Result<Result<FromTarget<JOINTS>, Rejected>, LinkError> {
         let begin = Instant::now();
         loop {
             if let Some(frame) = self.arrived.pop_front() {
