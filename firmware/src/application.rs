@@ -1,17 +1,26 @@
 //! What runs when no tick does: frames, orders, replies, logs.
 
 use crate::board::{self, Counter, Link};
-use crate::control::{LIMITS, Measurement, Order, Posting, Receiving, Record, Sending};
+use crate::control::{Measurement, Order, Posting, Receiving, Record, Sending, joint_limits};
+use crate::limiting;
 use crate::log::Log;
 use crate::no_init::{self, stack_bytes};
 use crate::profile::{Profile, stages};
+use crate::robot::{self, FRAME, JOINTS, LIMITS};
 use surefoot::balance::Mode;
 use surefoot_firmware::freshness::Freshness;
 use surefoot_firmware::orders::Orders;
 use surefoot_link::{
-    Acknowledged, BAUD, Clock, FRAME, FromTarget, Identity, Injection, Pacing, Receiver, Rejected,
-    Sender, Sensors, SetPoint, Settings, Status, ToTarget, Torques, shortest_period_us,
+    Acknowledged, BAUD, Clock, Identity, Injection, Pacing, Receiver, Rejected, RobotId, Sender,
+    SetPoint, Status, by_joint, shortest_period_us,
 };
+
+type ToTarget = surefoot_link::ToTarget<JOINTS>;
+type FromTarget = surefoot_link::FromTarget<JOINTS>;
+type Sensors = surefoot_link::Sensors<JOINTS>;
+type Settings = surefoot_link::Settings<JOINTS>;
+type WrenchSettings = surefoot_link::WrenchSettings<JOINTS>;
+type Torques = surefoot_link::Torques<JOINTS>;
 
 /// Everything that idle owns.
 pub struct Application {
@@ -25,7 +34,7 @@ pub struct Application {
     freshness: Freshness,
     session: Option<u32>,
     records: Receiving<Record>,
-    receiver: Receiver<ToTarget>,
+    receiver: Receiver<ToTarget, FRAME>,
     sender: Sender,
     pacing: Pacing,
     profile: Profile,
@@ -103,6 +112,7 @@ impl Application {
 
     fn identity(&self) -> Identity {
         Identity {
+            robot: robot::ID,
             counter: Counter::UNIT,
             per_second: Counter::PER_SECOND,
             resets: self.log.contents().resets,
@@ -133,8 +143,9 @@ impl Application {
             Ok(ToTarget::Hello) => FromTarget::Identity(self.identity()),
             Ok(ToTarget::Status) => FromTarget::Status(self.status()),
             Ok(ToTarget::Configure(settings)) => FromTarget::Acknowledged(self.configure(settings)),
+            Ok(ToTarget::Limit(settings)) => FromTarget::Acknowledged(self.limit(&settings)),
             Ok(ToTarget::SetPoint(pose)) => FromTarget::Acknowledged(self.set_point(pose)),
-            Ok(ToTarget::Arm) => FromTarget::Acknowledged(self.order(Order::Arm)),
+            Ok(ToTarget::Arm(robot)) => FromTarget::Acknowledged(self.arm(robot)),
             Ok(ToTarget::Disarm) => FromTarget::Acknowledged(self.order(Order::Disarm)),
             Ok(ToTarget::Profile(sensors)) => {
                 if self.on_their_way.is_standby() {
@@ -153,7 +164,7 @@ impl Application {
         if !settings.is_valid() {
             return Acknowledged::Invalid;
         }
-        if let Err(error) = LIMITS.allows(&settings.joint_limits, &settings.thresholds) {
+        if let Err(error) = LIMITS.allows(&joint_limits(&settings), &settings.thresholds) {
             defmt::warn!("limits are refused: {}", defmt::Display2Format(&error));
             return Acknowledged::Limit(error);
         }
@@ -162,7 +173,7 @@ impl Application {
         }
         let period_us = settings.period_us();
         if settings.pacing == Pacing::FreeRunning {
-            let shortest_us = shortest_period_us(BAUD);
+            let shortest_us = shortest_period_us::<JOINTS>(BAUD);
             if period_us < shortest_us {
                 return Acknowledged::TooFast(shortest_us);
             }
@@ -180,6 +191,22 @@ impl Application {
             self.freshness = Freshness::new(period_us, drift(self.clock));
         }
         answer
+    }
+
+    #[inline(never)]
+    fn limit(&mut self, settings: &WrenchSettings) -> Acknowledged {
+        if !self.on_their_way.is_standby() {
+            return Acknowledged::Busy;
+        }
+        match limiting::limits(settings) {
+            Ok(limits) => self.order(Order::Limit(limits)),
+            Err(answer) => answer,
+        }
+    }
+
+    /// For a host that means this robot.
+    fn arm(&mut self, robot: RobotId) -> Acknowledged {
+        if robot == robot::ID { self.order(Order::Arm) } else { Acknowledged::Robot(robot::ID) }
     }
 
     fn set_point(&mut self, pose: SetPoint) -> Acknowledged {
@@ -205,7 +232,10 @@ impl Application {
             && self.freshness.accept(taken_us, arrived_us).is_err()
         {
             self.measurements_stale = self.measurements_stale.saturating_add(1);
-        } else if self.measurements.post(Measurement { arrived_us, state: sensors.state() }) {
+            return;
+        }
+        let (state, contacts) = (sensors.state(), sensors.contacts());
+        if self.measurements.post(Measurement { arrived_us, state, contacts }) {
             self.measurements_replaced = self.measurements_replaced.saturating_add(1);
         }
     }
@@ -260,12 +290,11 @@ impl Application {
             self.cut_torques = record.cut_torques;
             self.records_dropped = record.dropped;
             defmt::debug!(
-                "tick {=u32}: cost {=u32}, latency {=u32}, torques {} {}",
+                "tick {=u32}: cost {=u32}, latency {=u32}, torques {}",
                 record.tick,
                 record.cost,
                 record.latency,
-                record.joint_torques[0],
-                record.joint_torques[1],
+                record.joint_torques,
             );
             if is_answered && (self.pacing == Pacing::LockStep || record.is_measured) {
                 self.send(&FromTarget::Torques(torques(&record)));
@@ -308,12 +337,13 @@ fn drift(clock: Clock) -> u32 {
 fn torques(record: &Record) -> Torques {
     Torques {
         tick: record.tick,
-        joint_torques: record.joint_torques,
+        joint_torques: by_joint(&record.joint_torques, 0.0),
         desired_wrench: record
             .command
             .map_or([0.0; 6], |command| command.desired_wrench.to_array()),
         mode: record.mode,
         reason: record.reason,
+        limits: record.limits,
         cost: record.cost,
         latency: record.latency,
     }

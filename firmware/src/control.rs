@@ -1,22 +1,16 @@
 //! The tick: what runs at the highest priority.
 
 use crate::board::{Counter, Motors, TickTimer, Watchdog, now_us};
+use crate::limiting::Limiting;
+use crate::robot::{self, GAINS, JOINTS, LEG, LEGS, LIMITS, ROBOT};
 use heapless::spsc::{Consumer, Producer, Queue};
-use nalgebra::Vector3;
 use surefoot::balance::{
-    Command, Controller, Gains, LeggedRobot, Mode, Reference, RobotState, SafetyLimits, StopReason,
-    Supervisor, WorkspaceForm,
+    Command, Controller, JointLimits, Mode, Reference, RobotState, StopReason, Supervisor,
+    WorkspaceForm, WrenchLimits, tick,
 };
-use surefoot::model::robots::biped;
-use surefoot::spatial::{Quaternion, SymmetricMatrix3};
+use surefoot::spatial::Quaternion;
 use surefoot_firmware::mailbox::{Mailbox, Reader, Writer};
-use surefoot_link::{LEGS, Pacing, SetPoint, Settings};
-
-/// The robot, in flash.
-pub static ROBOT: LeggedRobot<f32, LEGS> = LeggedRobot::<f64, LEGS>::new(&biped::TREE).to_f32();
-
-/// What its supervisor allows: settings may be tighter, and no wider.
-pub static LIMITS: SafetyLimits<f32, LEGS> = biped::LIMITS.to_f32();
+use surefoot_link::{Pacing, SetPoint, Settings, TickLimits, by_leg};
 
 /// Seconds between ticks until the host says otherwise.
 pub const PERIOD: f32 = 1e-3;
@@ -25,7 +19,9 @@ pub const PERIOD: f32 = 1e-3;
 #[expect(clippy::large_enum_variant, reason = "its queues are static, and there is no heap")]
 pub enum Order {
     /// New constants; in standby only.
-    Configure(Settings),
+    Configure(Settings<JOINTS>),
+    /// Distribute within these limits; in standby only.
+    Limit(WrenchLimits<f32, LEGS>),
     /// A pose to hold.
     SetPoint(SetPoint),
     /// Begin to balance.
@@ -42,13 +38,15 @@ pub struct Record {
     /// Whether it had a measurement.
     pub is_measured: bool,
     /// N·m
-    pub joint_torques: [[f32; 6]; LEGS],
+    pub joint_torques: [[f32; LEG]; LEGS],
     /// The tick's answer, where there was one.
     pub command: Option<Command<f32, LEGS>>,
     /// After the tick.
     pub mode: Mode,
     /// Why it stopped.
     pub reason: Option<StopReason>,
+    /// What limits of ground and motors made of the tick, where there are any.
+    pub limits: Option<TickLimits<f32>>,
     /// Torques cut to their limits so far.
     pub cut_torques: u32,
     /// Ticks so far.
@@ -80,6 +78,8 @@ pub struct Measurement {
     pub arrived_us: u32,
     /// What was measured.
     pub state: RobotState<f32, LEGS>,
+    /// Which feet touch the ground.
+    pub contacts: [bool; LEGS],
 }
 
 /// Holds the newest measurement.
@@ -101,6 +101,7 @@ pub struct Control {
     patience_us: u32,
     records: Sending<Record>,
     controller: Controller<'static, f32, LEGS>,
+    limiting: Option<Limiting>,
     reference: Reference<f32>,
     supervisor: Supervisor<f32, LEGS>,
     /// Cost that a tick may have.
@@ -117,7 +118,7 @@ pub struct Control {
 }
 
 impl Control {
-    /// In standby, with the gains of the experiments, for ticks [`PERIOD`] apart.
+    /// In standby, with the gains of the robot's file, for ticks [`PERIOD`] apart.
     #[expect(
         clippy::too_many_arguments,
         reason = "each is handed over once, to be owned by the tick"
@@ -141,8 +142,9 @@ impl Control {
             measurements,
             patience_us: u32::MAX,
             records,
-            controller: Controller::new(&ROBOT),
-            reference: Reference::at_rest(Vector3::new(0.0, 0.0, 1.1), Quaternion::identity()),
+            controller: controller(),
+            limiting: None,
+            reference: robot::reference(),
             supervisor,
             deadline: Counter::cost_of(PERIOD),
             overran: false,
@@ -172,9 +174,16 @@ impl Control {
             let waited = |newest: &&Measurement| now_us().wrapping_sub(newest.arrived_us);
             let measured = newest.filter(|newest| waited(newest) <= self.patience_us);
             is_measured = measured.is_some();
+            let Self { supervisor, controller, limiting, reference, .. } = self;
             let state = measured.map(|measured| &measured.state);
-            self.supervisor.step(&self.controller, state, &self.reference, self.overran)
+            supervisor.step_with(state, reference, self.overran, |now| match (limiting, measured) {
+                (Some(limiting), Some(measured)) => {
+                    limiting.tick(controller, now, reference, &measured.contacts)
+                }
+                _ => tick(controller, now, reference),
+            })
         });
+        let limits = self.limiting.as_mut().and_then(|limiting| limiting.met.take());
         let mode = self.supervisor.mode();
         self.motors.set(&supervised.joint_torques, mode != Mode::Standby && mode != Mode::Stopped);
         self.watchdog.feed();
@@ -191,6 +200,7 @@ impl Control {
             command: supervised.command,
             mode,
             reason: self.supervisor.reason(),
+            limits,
             cut_torques: self.supervisor.cut_torques(),
             tick: self.tick,
             orders: self.taken,
@@ -213,6 +223,11 @@ impl Control {
                     self.configure(&settings);
                 }
             }
+            Order::Limit(limits) => {
+                if self.supervisor.mode() == Mode::Standby {
+                    self.limiting = Some(Limiting::new(limits));
+                }
+            }
             Order::SetPoint(pose) => self.reference = reference(&pose),
             Order::Arm => self.supervisor.arm(),
             Order::Disarm => self.supervisor.disarm(),
@@ -224,12 +239,14 @@ impl Control {
     /// Apart, so that no tick has its stack.
     #[cold]
     #[inline(never)]
-    fn configure(&mut self, settings: &Settings) {
+    fn configure(&mut self, settings: &Settings<JOINTS>) {
         // The application has refused others.
-        let Settings { joint_limits, thresholds, period, .. } = settings;
-        if self.supervisor.tighten(&LIMITS, joint_limits, thresholds, *period).is_err() {
+        let Settings { thresholds, period, .. } = settings;
+        let joint_limits = joint_limits(settings);
+        if self.supervisor.tighten(&LIMITS, &joint_limits, thresholds, *period).is_err() {
             return;
         }
+        self.limiting = None;
         configure(&mut self.controller, settings);
         self.deadline = Counter::cost_of(settings.period);
         self.next_pacing = Some((settings.pacing, settings.period, settings.period_us()));
@@ -253,15 +270,24 @@ impl Control {
     }
 }
 
+/// With the gains of the robot's file.
+pub fn controller() -> Controller<'static, f32, LEGS> {
+    Controller { gains: robot::gains(GAINS), ..Controller::new(&ROBOT) }
+}
+
 /// The controller's part of the settings.
-pub fn configure(controller: &mut Controller<'static, f32, LEGS>, settings: &Settings) {
-    let [position, velocity, orientation, angular_velocity] =
-        settings.gains.map(|[x, y, z]| SymmetricMatrix3::diagonal(x, y, z));
-    controller.gains = Gains { position, velocity, orientation, angular_velocity };
+pub fn configure(controller: &mut Controller<'static, f32, LEGS>, settings: &Settings<JOINTS>) {
+    controller.gains = robot::gains(settings.gains);
     controller.form = match settings.big_base {
         None => WorkspaceForm::FixedFoot,
         Some(factor) => WorkspaceForm::BigBase { factor },
     };
+}
+
+/// The supervisor's part of the settings, joint by joint.
+pub fn joint_limits(settings: &Settings<JOINTS>) -> [[JointLimits<f32>; LEG]; LEGS] {
+    let none = JointLimits { torque: 0.0, angle: [0.0; 2], rate: 0.0 };
+    by_leg(&settings.joint_limits, none)
 }
 
 /// A pose to hold.

@@ -37,6 +37,8 @@ mod control;
 #[cfg(target_os = "none")]
 mod crash;
 #[cfg(target_os = "none")]
+mod limiting;
+#[cfg(target_os = "none")]
 mod log;
 #[cfg(target_os = "none")]
 mod logger;
@@ -44,13 +46,16 @@ mod logger;
 mod no_init;
 #[cfg(target_os = "none")]
 mod profile;
+#[cfg(target_os = "none")]
+mod robot;
 
 #[cfg(target_os = "none")]
 #[rtic::app(device = crate::board::device, peripherals = true)]
 mod app {
     use crate::application::Application;
     use crate::board::{Board, ByteQueue, UartReceiver};
-    use crate::control::{Control, LIMITS, Measurements, Order, PERIOD, Record, TickQueue};
+    use crate::control::{Control, Measurements, Order, PERIOD, Record, TickQueue};
+    use crate::robot::LIMITS;
     use surefoot::balance::Supervisor;
 
     #[shared]

@@ -1,16 +1,15 @@
 //! What each stage of a tick costs, one after the other, for one measurement.
 
 use crate::board::Counter;
-use crate::control::{ROBOT, configure, reference};
+use crate::control::{configure, controller, reference};
+use crate::robot::{self, JOINTS, LEGS, ROBOT};
 use core::hint::black_box;
-use nalgebra::Vector3;
 use surefoot::balance::{
     Controller, Fault, Reference, RobotState, WorkspaceForm, big_base, central_body,
     desired_acceleration, fixed_foot_wrench, joint_torques, leg_kinematics, tick,
     wrench_distribution,
 };
-use surefoot::spatial::Quaternion;
-use surefoot_link::{LEGS, SetPoint, Settings, Stages};
+use surefoot_link::{SetPoint, Settings, Stages};
 
 /// The tick's constants, kept a second time for idle.
 pub struct Profile {
@@ -21,14 +20,11 @@ pub struct Profile {
 impl Profile {
     /// With the tick's constants after a reset.
     pub fn new() -> Self {
-        Self {
-            controller: Controller::new(&ROBOT),
-            reference: Reference::at_rest(Vector3::new(0.0, 0.0, 1.1), Quaternion::identity()),
-        }
+        Self { controller: controller(), reference: robot::reference() }
     }
 
     /// As the tick is configured.
-    pub fn configure(&mut self, settings: &Settings) {
+    pub fn configure(&mut self, settings: &Settings<JOINTS>) {
         configure(&mut self.controller, settings);
     }
 

@@ -4,10 +4,20 @@ use crate::sequence::FrameNumber;
 use serde::Serialize;
 
 /// Version of the messages. Both ends must have the same; it goes up when a message changes.
-pub const VERSION: u8 = 2;
+pub const VERSION: u8 = 3;
 
-/// Largest frame, in bytes on the wire, its end included.
-pub const FRAME: usize = 512;
+/// Largest frame of robots with so many joints, in bytes on the wire, its end included: their settings,
+/// or the status, which is that of all robots.
+pub const fn frame_bytes(joints: usize) -> usize {
+    const STATUS: usize = 512;
+    // Header, variant, checksum, end: 16; period, pacing, gains, big base: 58; thresholds: 56.
+    let plain = 130 + 16 * joints;
+    let settings = plain + plain.div_ceil(254);
+    if settings > STATUS { settings } else { STATUS }
+}
+
+/// The same for every robot that a byte can count the joints of.
+pub const MOST_FRAME: usize = frame_bytes(u8::MAX as usize);
 
 /// CRC-32 of ISO 3309 (Ethernet, zlib): finds all errors of up to 3 bits in frames of this length.
 const CHECKSUM: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
@@ -42,7 +52,7 @@ impl Sender {
 
     /// Writes a message as a frame into `wire` and gives the part of it that was written; `None`
     /// where the message is longer than a frame can be.
-    pub fn encode<'a, M: Serialize>(
+    pub fn encode<'a, M: Serialize, const FRAME: usize>(
         &mut self,
         message: &M,
         wire: &'a mut [u8; FRAME],
@@ -61,11 +71,10 @@ impl Sender {
     }
 }
 
-/// Most bytes that a message takes on the wire, whatever its frame's number; `None` where it does
-/// not fit a frame.
+/// Most bytes that a message takes on the wire, whatever its frame's number; `None` where it cannot be
+/// written.
 pub fn most_wire_bytes<M: Serialize>(message: &M) -> Option<usize> {
     let plain =
         MOST_HEADER_BYTES + postcard::experimental::serialized_size(message).ok()? + CHECKSUM_BYTES;
-    let wire = cobs::max_encoding_length(plain) + 1;
-    (wire <= FRAME).then_some(wire)
+    Some(cobs::max_encoding_length(plain) + 1)
 }

@@ -8,6 +8,9 @@
 //! another version or too long is rejected, and counted by its kind. A sender that has begun anew is
 //! known by its session, and believed from its second frame on.
 //!
+//! Messages are those of a robot with so many joints. A target says at once which robot it has been built
+//! for ([`RobotId`]), so that a host of another one knows; and it arms for no other.
+//!
 //! The link does not know what is at its other end: a plant of this project, another simulator, or a
 //! test bench; a UART, a pipe or a socket.
 
@@ -15,17 +18,22 @@
 #![forbid(unsafe_code)]
 
 mod frame;
+mod limits;
 mod line;
 mod message;
+mod numbers;
 mod receiver;
+mod robot;
 mod sequence;
 mod status;
 
-pub use frame::{FRAME, Sender, VERSION, checksum, most_wire_bytes};
+pub use frame::{MOST_FRAME, Sender, VERSION, checksum, frame_bytes, most_wire_bytes};
+pub use limits::{MOST_FEET, TickLimits, WrenchSettings};
 pub use line::{BAUD, shortest_period_us, wire_us};
 pub use message::{
-    Acknowledged, Counter, FromTarget, Identity, Injection, LEGS, Pacing, Sensors, SetPoint,
-    Settings, Stages, ToTarget, Torques,
+    Acknowledged, Counter, FromTarget, Identity, Injection, Pacing, Sensors, SetPoint, Settings,
+    Stages, ToTarget, Torques, by_joint, by_leg,
 };
 pub use receiver::{Receiver, Rejected, Tally};
+pub use robot::RobotId;
 pub use status::{Clock, Crash, FaultLog, LineErrors, LoggedFault, NoCrystal, Status};

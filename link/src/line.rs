@@ -1,8 +1,7 @@
 //! What the serial line carries in a period.
 
 use crate::frame::most_wire_bytes;
-use crate::message::LEG;
-use crate::{LEGS, Sensors, ToTarget};
+use crate::{Sensors, ToTarget};
 
 /// Bits a second, of both ends. USB adapters that do it are common (FT232R, FT232H, CP2102N, CH343).
 ///
@@ -21,23 +20,24 @@ pub const fn wire_us(bytes: u32, baud: u32) -> u32 {
     (bytes * BITS_A_BYTE * 10_000).div_ceil(baud / 100)
 }
 
-/// Shortest period, µs, in which the line can carry one measurement a tick. Torques go the other way
-/// and are shorter.
+/// Shortest period, µs, in which the line can carry one measurement of so many joints a tick. Torques go
+/// the other way and are shorter.
 ///
-/// A measurement of the biped takes 170 bytes at most: 567 µs at 3 Mbaud, so 709 µs.
-pub fn shortest_period_us(baud: u32) -> u32 {
-    let longest = ToTarget::Sensors { taken_us: u32::MAX, sensors: Sensors::ZERO };
+/// A measurement of twelve joints takes 171 bytes at most: 570 µs at 3 Mbaud, so 713 µs.
+pub fn shortest_period_us<const JOINTS: usize>(baud: u32) -> u32 {
+    let longest = ToTarget::Sensors { taken_us: u32::MAX, sensors: Sensors::<JOINTS>::ZERO };
     let Some(bytes) = most_wire_bytes(&longest) else { return u32::MAX };
     (wire_us(bytes as u32, baud) * SHARE.1).div_ceil(SHARE.0)
 }
 
-impl Sensors {
+impl<const JOINTS: usize> Sensors<JOINTS> {
     /// All numbers zero. Numbers take the same bytes whatever their value.
     const ZERO: Self = Self {
         position: [0.0; 3],
         orientation: [0.0; 4],
         velocity: [0.0; 6],
-        joint_angles: [[0.0; LEG]; LEGS],
-        joint_rates: [[0.0; LEG]; LEGS],
+        joint_angles: [0.0; JOINTS],
+        joint_rates: [0.0; JOINTS],
+        contacts: 0,
     };
 }

@@ -1,26 +1,32 @@
-//! The messages. Numbers are single precision: what the target computes with, bit for bit.
+//! The messages, of a robot with so many joints. Numbers are single precision: what the target computes
+//! with, bit for bit. Joints stand in the robot's order: leg after leg, from hip to foot.
+//!
+//! Greetings are the same for robots of all sizes, so that ends of different robots can say so.
 
+use crate::limits::{TickLimits, WrenchSettings};
+use crate::numbers;
+use crate::robot::RobotId;
 use crate::status::{Clock, Crash, Status};
 use serde::{Deserialize, Serialize};
 use surefoot::balance::{JointLimits, LimitError, Mode, RobotState, StopReason, Thresholds};
 use surefoot::spatial::{Quaternion, Twist};
 
-/// Legs of the robot on the link.
-pub const LEGS: usize = 2;
-/// Joints of a leg.
-pub(crate) const LEG: usize = 6;
-
 /// From host to target.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum ToTarget {
+// Without a heap there is no box for the largest.
+#[allow(clippy::large_enum_variant)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ToTarget<const JOINTS: usize> {
     /// Who are you? Answered by [`FromTarget::Identity`].
     Hello,
-    /// New settings, in standby only. Answered by [`FromTarget::Acknowledged`].
-    Configure(Settings),
+    /// New settings, in standby only, and no limits of ground and motors. Answered by
+    /// [`FromTarget::Acknowledged`].
+    Configure(Settings<JOINTS>),
+    /// Distribute wrenches within these limits, from the next tick on; in standby only. Acknowledged.
+    Limit(WrenchSettings<JOINTS>),
     /// A pose to hold from now on. Acknowledged.
     SetPoint(SetPoint),
-    /// Begin to balance at the next tick. Acknowledged.
-    Arm,
+    /// Begin to balance this robot at the next tick. Acknowledged; refused by a target of another.
+    Arm(RobotId),
     /// Zero torques. Acknowledged.
     Disarm,
     /// One measurement. Answered by [`FromTarget::Torques`] when a tick has used it.
@@ -29,13 +35,13 @@ pub enum ToTarget {
         /// been on its way for longer than a period; in lock step nobody reads it.
         taken_us: u32,
         /// What was measured.
-        sensors: Sensors,
+        sensors: Sensors<JOINTS>,
     },
     /// How are you? Answered by [`FromTarget::Status`].
     Status,
     /// What does each stage of a tick cost, for this measurement? Answered by
     /// [`FromTarget::Stages`], in standby only.
-    Profile(Sensors),
+    Profile(Sensors<JOINTS>),
     /// Something that should not happen. Emulation builds do it; others refuse.
     Inject(Injection),
 }
@@ -44,13 +50,13 @@ pub enum ToTarget {
 // Without a heap there is no box for the largest.
 #[allow(clippy::large_enum_variant)]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum FromTarget {
+pub enum FromTarget<const JOINTS: usize> {
     /// Sent on reset, and on [`ToTarget::Hello`].
     Identity(Identity),
     /// An answer to an order.
     Acknowledged(Acknowledged),
     /// What one tick gave.
-    Torques(Torques),
+    Torques(Torques<JOINTS>),
     /// Counts and logs.
     Status(Status),
     /// Costs by stage.
@@ -68,6 +74,10 @@ pub enum Acknowledged {
     Invalid,
     /// A limit makes no sense, or allows more than the target's own.
     Limit(LimitError),
+    /// The target has been built for another robot: this one.
+    Robot(RobotId),
+    /// This leg's sole is larger than the target's own robot has it.
+    Sole(u8),
     /// This build does not do that.
     Unsupported,
     /// The period is shorter than the line needs for a measurement: this much, µs.
@@ -88,6 +98,8 @@ pub enum Counter {
 /// Who the target is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity {
+    /// What it has been built for.
+    pub robot: RobotId,
     /// Unit of all costs.
     pub counter: Counter,
     /// Cost that takes one second.
@@ -111,7 +123,7 @@ pub enum Pacing {
 
 /// Constants of controller and supervisor.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Settings {
+pub struct Settings<const JOINTS: usize> {
     /// Seconds between ticks.
     pub period: f32,
     /// What makes a tick.
@@ -121,7 +133,8 @@ pub struct Settings {
     /// Factor of the printed big base; exactly fixed feet without one.
     pub big_base: Option<f32>,
     /// Limits of the joints: none wider than the target's own.
-    pub joint_limits: [[JointLimits<f32>; LEG]; LEGS],
+    #[serde(with = "numbers")]
+    pub joint_limits: [JointLimits<f32>; JOINTS],
     /// Thresholds of the supervisor: none wider than the target's own.
     pub thresholds: Thresholds<f32>,
 }
@@ -137,7 +150,7 @@ pub struct SetPoint {
 
 /// A measured state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Sensors {
+pub struct Sensors<const JOINTS: usize> {
     /// m, world frame.
     pub position: [f32; 3],
     /// World from body, scalar first.
@@ -145,24 +158,31 @@ pub struct Sensors {
     /// Body twist, linear first.
     pub velocity: [f32; 6],
     /// rad
-    pub joint_angles: [[f32; LEG]; LEGS],
+    #[serde(with = "numbers")]
+    pub joint_angles: [f32; JOINTS],
     /// rad/s
-    pub joint_rates: [[f32; LEG]; LEGS],
+    #[serde(with = "numbers")]
+    pub joint_rates: [f32; JOINTS],
+    /// Which feet touch the ground: bit 0 is the first. Looked at only within limits.
+    pub contacts: u8,
 }
 
 /// What a tick sends to the motors, and what it cost.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Torques {
+pub struct Torques<const JOINTS: usize> {
     /// Ticks since the last reset.
     pub tick: u32,
     /// N·m
-    pub joint_torques: [[f32; LEG]; LEGS],
+    #[serde(with = "numbers")]
+    pub joint_torques: [f32; JOINTS],
     /// Wrench asked of the legs, force first; zero where there was no tick.
     pub desired_wrench: [f32; 6],
     /// Mode after the tick.
     pub mode: Mode,
     /// Why it stopped.
     pub reason: Option<StopReason>,
+    /// What limits of ground and motors made of it, where there are any.
+    pub limits: Option<TickLimits<f32>>,
     /// Cost of the tick, from measurement to torques.
     pub cost: u32,
     /// Cost between the tick's being due and its beginning.
@@ -203,32 +223,49 @@ pub enum Injection {
     Exit,
 }
 
-impl Sensors {
-    /// As the controller takes it.
-    pub fn state(&self) -> RobotState<f32, LEGS> {
+impl<const JOINTS: usize> Sensors<JOINTS> {
+    /// As the controller takes it; joints that the message does not have are at 0.
+    pub fn state<const LEGS: usize>(&self) -> RobotState<f32, LEGS> {
         RobotState {
             position: self.position.into(),
             orientation: Quaternion::from_array(self.orientation),
             velocity: Twist::from_array(self.velocity),
-            joint_angles: self.joint_angles,
-            joint_rates: self.joint_rates,
+            joint_angles: by_leg(&self.joint_angles, 0.0),
+            joint_rates: by_leg(&self.joint_rates, 0.0),
         }
+    }
+
+    /// Which feet touch the ground, leg by leg.
+    pub fn contacts<const LEGS: usize>(&self) -> [bool; LEGS] {
+        core::array::from_fn(|leg| leg < 8 && self.contacts & (1 << leg) != 0)
+    }
+
+    /// The same as bits.
+    pub fn contact_bits(feet: &[bool]) -> u8 {
+        feet.iter().take(8).enumerate().fold(0, |bits, (k, touches)| bits | u8::from(*touches) << k)
     }
 }
 
-impl From<&RobotState<f32, LEGS>> for Sensors {
-    fn from(state: &RobotState<f32, LEGS>) -> Self {
-        Self {
-            position: state.position.into(),
-            orientation: state.orientation.to_array(),
-            velocity: state.velocity.to_array(),
-            joint_angles: state.joint_angles,
-            joint_rates: state.joint_rates,
-        }
-    }
+/// The entries of all joints by leg; `missing` for those that are not there.
+pub fn by_leg<T: Copy, const LEGS: usize, const LEG: usize>(
+    joints: &[T],
+    missing: T,
+) -> [[T; LEG]; LEGS] {
+    core::array::from_fn(|leg| {
+        core::array::from_fn(|k| joints.get(LEG * leg + k).copied().unwrap_or(missing))
+    })
 }
 
-impl Settings {
+/// The entries of all legs, joint by joint; `missing` for those that are not there.
+pub fn by_joint<T: Copy, const JOINTS: usize, const LEG: usize>(
+    legs: &[[T; LEG]],
+    missing: T,
+) -> [T; JOINTS] {
+    let all = legs.as_flattened();
+    core::array::from_fn(|joint| all.get(joint).copied().unwrap_or(missing))
+}
+
+impl<const JOINTS: usize> Settings<JOINTS> {
     /// Time between ticks, µs.
     pub fn period_us(&self) -> u32 {
         (self.period * 1e6 + 0.5) as u32
@@ -260,6 +297,8 @@ impl core::fmt::Display for Acknowledged {
             Self::Busy => f.write_str("not in this mode"),
             Self::Invalid => f.write_str("numbers out of range"),
             Self::Limit(error) => error.fmt(f),
+            Self::Robot(robot) => write!(f, "it has been built for {robot}"),
+            Self::Sole(leg) => write!(f, "the sole of leg {leg} is larger than its robot's"),
             Self::Unsupported => f.write_str("this firmware does not do that"),
             Self::TooFast(us) => {
                 write!(f, "a measurement a tick needs periods of {us} µs or more on this line")

@@ -1,6 +1,6 @@
 //! The receiving end: bytes in, messages or reasons out.
 
-use crate::frame::{CHECKSUM_BYTES, FRAME, VERSION, checksum};
+use crate::frame::{CHECKSUM_BYTES, VERSION, checksum};
 use crate::sequence::{FrameNumber, SequenceWindow};
 use core::marker::PhantomData;
 use heapless::Vec;
@@ -49,9 +49,9 @@ pub struct Tally {
     pub malformed: u32,
 }
 
-/// Puts frames together again and takes messages `M` out of them.
+/// Puts frames of up to `FRAME` bytes together again and takes messages `M` out of them.
 #[derive(Debug)]
-pub struct Receiver<M> {
+pub struct Receiver<M, const FRAME: usize> {
     bytes: Vec<u8, FRAME>,
     /// The present frame is longer than a frame can be.
     is_too_long: bool,
@@ -60,7 +60,7 @@ pub struct Receiver<M> {
     message: PhantomData<M>,
 }
 
-impl<M: DeserializeOwned> Receiver<M> {
+impl<M: DeserializeOwned, const FRAME: usize> Receiver<M, FRAME> {
     /// A receiver that has heard nothing.
     pub const fn new() -> Self {
         Self {
@@ -140,7 +140,7 @@ impl<M: DeserializeOwned> Receiver<M> {
     }
 }
 
-impl<M: DeserializeOwned> Default for Receiver<M> {
+impl<M: DeserializeOwned, const FRAME: usize> Default for Receiver<M, FRAME> {
     fn default() -> Self {
         Self::new()
     }
@@ -150,7 +150,7 @@ impl core::fmt::Display for Rejected {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Truncated => f.write_str("a frame was cut short"),
-            Self::TooLong => write!(f, "a frame was longer than {FRAME} bytes"),
+            Self::TooLong => f.write_str("a frame was longer than any message"),
             Self::Corrupted => f.write_str("a frame's checksum was wrong"),
             Self::Version(theirs) => {
                 write!(f, "the other end speaks version {theirs} of the link, this one {VERSION}")

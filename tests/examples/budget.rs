@@ -3,17 +3,17 @@
 //! `cargo xtask budget` runs it. `TRACE` is where QEMU writes down every instruction of some ticks.
 
 use serde_json::{Value, json};
-use std::path::Path;
 use surefoot::balance::Mode;
 use surefoot_link::{Sensors, Stages, ToTarget};
+use surefoot_sim::closed_loop;
 use surefoot_sim::closed_loop::firmware::{
-    Emulator, FirmwareController, LinkError, Target, set_point, settings,
+    Emulator, FirmwareController, LinkError, image_for, sensors, set_point, settings,
 };
-use surefoot_sim::closed_loop::{self, measured};
 use surefoot_sim::scene::{Scene, load};
 
-const IMAGE: &str =
-    concat!(env!("CARGO_MANIFEST_DIR"), "/../target/firmware/surefoot-firmware-emulation.elf");
+/// Of the robot of the text.
+const JOINTS: usize = 12;
+type Target = surefoot_sim::closed_loop::firmware::Target<JOINTS>;
 
 /// Ticks that are traced, after the first, which also takes orders.
 const TRACED: usize = 2;
@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for name in scenes {
         eprintln!("  {name} with the controller on the target");
         let scene = load(name)?;
-        let mut controller = FirmwareController::new(target(&[])?, &scene)?;
+        let mut controller = FirmwareController::new(target(&scene, &[])?, &scene)?;
         let run = closed_loop::run(&scene, &mut controller, &mut |_| {});
         if let Some(failure) = run.failure {
             return Err(format!("{name} failed: {}", failure.place).into());
@@ -43,17 +43,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-fn target(arguments: &[&str]) -> Result<Target, LinkError> {
-    Target::connect(Emulator::start_with(Path::new(IMAGE), &std::env::temp_dir(), arguments)?)
+fn target(scene: &Scene, arguments: &[&str]) -> Result<Target, LinkError> {
+    Target::connect(Emulator::start_with(&image_for(scene)?, &std::env::temp_dir(), arguments)?)
 }
 
-fn start(scene: &Scene) -> Sensors {
-    Sensors::from(&measured(&scene.initial.state()))
+fn start(scene: &Scene) -> Sensors<JOINTS> {
+    sensors(&scene.initial.state())
 }
 
 /// Both forms of workspace dynamics, stage by stage.
 fn profile(scene: &Scene) -> Result<[Stages; 2], LinkError> {
-    let mut target = target(&[])?;
+    let mut target = target(scene, &[])?;
     let mut both = [Stages::default(); 2];
     for (stages, big_base) in both.iter_mut().zip([None, Some(1e3)]) {
         let mut settings = settings(scene);
@@ -67,13 +67,13 @@ fn profile(scene: &Scene) -> Result<[Stages; 2], LinkError> {
 
 fn traced(scene: &Scene, trace: &str) -> Result<(), Box<dyn std::error::Error>> {
     let arguments = ["-singlestep", "-d", "in_asm,exec,nochain", "-D", trace];
-    let mut target = target(&arguments)?;
+    let mut target = target(scene, &arguments)?;
     target.order("configure", &ToTarget::Configure(settings(scene)))?;
     target.order("set point", &ToTarget::SetPoint(set_point(scene)))?;
-    target.order("arm", &ToTarget::Arm)?;
+    target.order("arm", &ToTarget::Arm(scene.robot().id()))?;
     let mut sensors = start(scene);
     // At rest, so that the same measurement will do again.
-    sensors.joint_rates = [[0.0; 6]; 2];
+    sensors.joint_rates = [0.0; JOINTS];
     for _ in 0..=TRACED {
         let torques = target.tick(&sensors)?;
         if torques.mode != Mode::Active {

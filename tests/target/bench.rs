@@ -3,16 +3,21 @@
 use std::path::PathBuf;
 use surefoot::balance::{JointLimits, Mode, SafetyLimits};
 use surefoot::model::robots::biped;
-use surefoot_link::{Sensors, ToTarget, Torques};
-use surefoot_sim::closed_loop::firmware::{Emulator, Target, set_point, settings};
-use surefoot_sim::closed_loop::measured;
+use surefoot_sim::closed_loop::firmware::{Emulator, sensors, set_point, settings};
 use surefoot_sim::plant::{Additions, Plant, Variational};
 use surefoot_sim::scene::{Feet, Scene, load};
+
+/// Of a robot with twelve joints.
+pub const JOINTS: usize = 12;
+pub type ToTarget = surefoot_link::ToTarget<JOINTS>;
+pub type Sensors = surefoot_link::Sensors<JOINTS>;
+pub type Torques = surefoot_link::Torques<JOINTS>;
+pub type Target = surefoot_sim::closed_loop::firmware::Target<JOINTS>;
 
 /// Images that `cargo xtask firmware` leaves.
 pub fn image(name: &str) -> PathBuf {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/firmware");
-    PathBuf::from(folder).join(format!("surefoot-firmware-{name}.elf"))
+    PathBuf::from(folder).join("biped").join(format!("{name}.elf"))
 }
 
 pub fn emulator(name: &str) -> Emulator {
@@ -57,12 +62,12 @@ impl Bench {
 
     /// What the sensors read now.
     pub fn sensors(&mut self) -> Sensors {
-        Sensors::from(&measured(&self.plant.state().expect("a state")))
+        sensors(&self.plant.state().expect("a state"))
     }
 
     /// What they read at a scene's start.
     pub fn sensors_of(scene: &Scene) -> Sensors {
-        Sensors::from(&measured(&scene.initial.state()))
+        sensors(&scene.initial.state())
     }
 
     /// One tick with sensors that read what `spoil` makes of it.
@@ -87,14 +92,11 @@ impl Bench {
     /// The plant moves by one tick under these torques, which are within their limits.
     pub fn obey(&mut self, torques: &Torques) {
         let joints = self.limits.joints.iter().flatten();
-        for (torque, JointLimits { torque: limit, .. }) in
-            torques.joint_torques.iter().flatten().zip(joints)
+        for (torque, JointLimits { torque: limit, .. }) in torques.joint_torques.iter().zip(joints)
         {
             assert!(torque.abs() <= *limit, "{torque} N·m, and the limit is {limit}");
         }
-        let [left, right] = torques.joint_torques;
-        self.torques =
-            std::array::from_fn(|i| f64::from(if i < 6 { left[i] } else { right[i - 6] }));
+        self.torques = torques.joint_torques.map(f64::from);
         let step = self.scene.integrator.step_s;
         let steps = (1.0 / (self.scene.controller.rate_hz * step)).round() as usize;
         for number in 0..steps {
@@ -112,7 +114,7 @@ pub fn arm(target: &mut Target, scene: &Scene) {
         ("disarm", ToTarget::Disarm),
         ("configure", ToTarget::Configure(settings(scene))),
         ("set point", ToTarget::SetPoint(set_point(scene))),
-        ("arm", ToTarget::Arm),
+        ("arm", ToTarget::Arm(scene.robot().id())),
     ] {
         target.order(name, &order).expect("obeyed");
     }

@@ -1,8 +1,7 @@
 //! Host and target compute the same bits.
 
-use crate::bench::target;
+use crate::bench::{JOINTS, Torques, target};
 use surefoot::balance::StopReason;
-use surefoot_link::Torques;
 use surefoot_sim::closed_loop::firmware::FirmwareController;
 use surefoot_sim::closed_loop::{self, Commanded, ControlFailure, Controller, Scalar};
 use surefoot_sim::plant::PlantState;
@@ -10,7 +9,7 @@ use surefoot_sim::scene::{Feet, Outline, load};
 
 /// The target in the loop, and the host's controller beside it on the same measurements.
 struct Twins {
-    target: FirmwareController,
+    target: FirmwareController<JOINTS>,
     host: Box<dyn Controller>,
     compared: usize,
 }

@@ -1,9 +1,9 @@
 //! Fault injection: the robot is stopped, the reason is logged, motors brake, and torques stay within
 //! their limits (which the bench checks at every tick).
 
-use crate::bench::{Bench, arm};
+use crate::bench::{Bench, JOINTS, Sensors, ToTarget, Torques, arm};
 use surefoot::balance::{Fault, Input, LimitError, LimitFault, LimitField, Mode, StopReason};
-use surefoot_link::{Crash, FRAME, Injection, Sender, Sensors, ToTarget, Torques};
+use surefoot_link::{Acknowledged, Crash, Injection, RobotId, Sender, frame_bytes};
 
 /// The robot is rising then, with joint rates of up to 2 rad/s.
 const MIDDLE: usize = 60;
@@ -19,8 +19,7 @@ fn stops_within(
     for tick in 1.. {
         let torques = fault(&mut bench);
         if torques.mode == Mode::Active {
-            let pairs =
-                torques.joint_torques.iter().flatten().zip(before.joint_torques.iter().flatten());
+            let pairs = torques.joint_torques.iter().zip(&before.joint_torques);
             assert!(pairs.into_iter().all(|(now, before)| (now - before).abs() < 20.0));
             assert!(tick < ticks, "still active {tick} ticks after the fault");
             before = torques;
@@ -50,8 +49,8 @@ fn brakes(bench: &mut Bench) {
     for tick in 1..=ticks + 5 {
         let sensors = bench.sensors();
         let torques = bench.target.tick(&sensors).expect("an answer");
-        let rates = sensors.joint_rates.iter().flatten();
-        for (torque, rate) in torques.joint_torques.iter().flatten().zip(rates) {
+        let rates = &sensors.joint_rates;
+        for (torque, rate) in torques.joint_torques.iter().zip(rates) {
             assert!(torque * rate <= 0.0, "{tick} ticks after: {torque} N·m at {rate} rad/s");
             work += f64::from(torque * rate) * period;
         }
@@ -73,8 +72,8 @@ fn stops_at(spoil: impl Fn(&mut Sensors) + Copy) -> StopReason {
 fn numbers_that_are_none() {
     for (bad, joint) in [(f32::NAN, 0), (f32::INFINITY, 3), (f32::NEG_INFINITY, 5)] {
         let encoder = StopReason::Encoder { leg: 1, joint };
-        assert_eq!(stops_at(|sensors| sensors.joint_angles[1][joint] = bad), encoder);
-        assert_eq!(stops_at(|sensors| sensors.joint_rates[1][joint] = bad), encoder);
+        assert_eq!(stops_at(|sensors| sensors.joint_angles[6 + joint] = bad), encoder);
+        assert_eq!(stops_at(|sensors| sensors.joint_rates[6 + joint] = bad), encoder);
     }
     for bad in [f32::NAN, f32::INFINITY] {
         for spoil in [
@@ -91,7 +90,7 @@ fn numbers_that_are_none() {
 #[test]
 #[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn numbers_out_of_range() {
-    let reason = stops_at(|sensors| sensors.joint_angles[0][2] = 1e30);
+    let reason = stops_at(|sensors| sensors.joint_angles[2] = 1e30);
     assert_eq!(reason, StopReason::Encoder { leg: 0, joint: 2 });
     let reason = stops_at(|sensors| sensors.orientation = [0.5, 0.0, 0.0, 0.0]);
     // It is off by a leap before it is off unit norm.
@@ -102,9 +101,9 @@ fn numbers_out_of_range() {
             [std::f32::consts::FRAC_1_SQRT_2, std::f32::consts::FRAC_1_SQRT_2, 0.0, 0.0];
     });
     assert_eq!(reason, StopReason::Tilt);
-    let reason = stops_at(|sensors| sensors.joint_rates[1][4] = 150.0);
+    let reason = stops_at(|sensors| sensors.joint_rates[10] = 150.0);
     assert_eq!(reason, StopReason::Encoder { leg: 1, joint: 4 });
-    let reason = stops_at(|sensors| sensors.joint_angles[1][4] += 0.2);
+    let reason = stops_at(|sensors| sensors.joint_angles[10] += 0.2);
     assert_eq!(reason, StopReason::Jump { leg: 1, joint: 4 });
     let reason = stops_at(|sensors| sensors.velocity[1] += 3.0);
     assert_eq!(reason, StopReason::BodyJump(Input::Position));
@@ -118,11 +117,11 @@ fn numbers_out_of_range() {
 fn a_frozen_encoder() {
     let mut bench = Bench::after(MIDDLE);
     let frozen = bench.sensors();
-    let rate = frozen.joint_rates[0][3].abs();
+    let rate = frozen.joint_rates[3].abs();
     assert!(rate > 0.5, "the knee moves: {rate} rad/s");
     bench.tick(|_| {});
     let reason = stops_within(6, bench, |bench| {
-        bench.tick(|sensors| sensors.joint_angles[0][3] = frozen.joint_angles[0][3])
+        bench.tick(|sensors| sensors.joint_angles[3] = frozen.joint_angles[3])
     });
     assert_eq!(reason, StopReason::Frozen { leg: 0, joint: 3 });
 
@@ -136,11 +135,10 @@ fn a_frozen_encoder() {
         },
         |bench| {
             let now = bench.sensors();
-            let (angle, rate) =
-                *held.get_or_insert((now.joint_angles[1][3], now.joint_rates[1][3]));
+            let (angle, rate) = *held.get_or_insert((now.joint_angles[9], now.joint_rates[9]));
             bench.tick(|sensors| {
-                sensors.joint_angles[1][3] = angle;
-                sensors.joint_rates[1][3] = rate;
+                sensors.joint_angles[9] = angle;
+                sensors.joint_rates[9] = rate;
             })
         },
     );
@@ -226,7 +224,7 @@ fn a_brown_out() {
     for (injection, is_kept) in [(Injection::Reset, true), (Injection::ResetAndForget, false)] {
         let mut bench = Bench::after(MIDDLE);
         // A stop in the log before.
-        let reason = bench.tick(|sensors| sensors.joint_rates[0][0] = f32::NAN).reason;
+        let reason = bench.tick(|sensors| sensors.joint_rates[0] = f32::NAN).reason;
         assert_eq!(reason, Some(StopReason::Encoder { leg: 0, joint: 0 }));
         let scene = bench.scene.clone();
         arm(&mut bench.target, &scene);
@@ -237,7 +235,7 @@ fn a_brown_out() {
             let sensors = bench.sensors();
             let torques = bench.target.tick(&sensors).expect("an answer");
             assert_eq!(torques.mode, Mode::Standby);
-            assert_eq!(torques.joint_torques, [[0.0; 6]; 2]);
+            assert_eq!(torques.joint_torques, [0.0; JOINTS]);
         }
         let log = bench.target.status().expect("an answer").log;
         if is_kept {
@@ -287,7 +285,7 @@ fn crashes() {
         }
         let sensors = bench.sensors();
         let torques = bench.target.tick(&sensors).expect("an answer");
-        assert_eq!((torques.mode, torques.joint_torques), (Mode::Standby, [[0.0; 6]; 2]));
+        assert_eq!((torques.mode, torques.joint_torques), (Mode::Standby, [0.0; JOINTS]));
         arm(&mut bench.target, &scene);
         assert_eq!(bench.target.tick(&sensors).expect("an answer").mode, Mode::Active);
     }
@@ -302,7 +300,7 @@ fn a_host_that_begins_anew() {
     for _ in 0..3 {
         let sensors = bench.sensors();
         let measurement = bench.target.measurement(&sensors);
-        let mut wire = [0; FRAME];
+        let mut wire = [0; frame_bytes(JOINTS)];
         let frame = other.encode(&measurement, &mut wire).expect("it fits").to_vec();
         assert_eq!(bench.tick_with_frame(|_| frame).mode, Mode::Active);
     }
@@ -340,11 +338,11 @@ fn orders_that_make_no_sense() {
     // Limits that are none, and such as allow more than the firmware's own.
     let limit = |joint, field, fault| Limit(LimitError { joint, field, fault });
     bad = good;
-    bad.joint_limits[1][3].torque = f32::NAN;
+    bad.joint_limits[9].torque = f32::NAN;
     let answer = limit(Some((1, 3)), LimitField::Torque, LimitFault::NotFinite);
     assert_eq!(refused(&mut bench, ToTarget::Configure(bad)), answer);
     bad = good;
-    bad.joint_limits[0][5].torque *= 1.01;
+    bad.joint_limits[5].torque *= 1.01;
     let answer = limit(Some((0, 5)), LimitField::Torque, LimitFault::Widens);
     assert_eq!(refused(&mut bench, ToTarget::Configure(bad)), answer);
     bad = good;
@@ -355,7 +353,10 @@ fn orders_that_make_no_sense() {
     bad = good;
     bad.pacing = Pacing::FreeRunning;
     bad.period = 7e-4;
-    assert_eq!(refused(&mut bench, ToTarget::Configure(bad)), TooFast(shortest_period_us(BAUD)));
+    assert_eq!(
+        refused(&mut bench, ToTarget::Configure(bad)),
+        TooFast(shortest_period_us::<JOINTS>(BAUD))
+    );
     bad.period = 0.5;
     assert_eq!(refused(&mut bench, ToTarget::Configure(bad)), TooSlow(99_864));
     let scene = bench.scene.clone();
@@ -364,8 +365,26 @@ fn orders_that_make_no_sense() {
     // Tighter ones are kept.
     bench.target.order("disarm", &ToTarget::Disarm).expect("obeyed");
     let mut tight = good;
-    tight.joint_limits[0][3].torque = 1.0;
+    tight.joint_limits[3].torque = 1.0;
     bench.target.order("configure", &ToTarget::Configure(tight)).expect("obeyed");
-    bench.target.order("arm", &ToTarget::Arm).expect("obeyed");
-    assert_eq!(bench.tick(|_| {}).joint_torques[0][3].abs(), 1.0);
+    bench.target.order("arm", &ToTarget::Arm(scene.robot().id())).expect("obeyed");
+    assert_eq!(bench.tick(|_| {}).joint_torques[3].abs(), 1.0);
+}
+
+/// A host of another robot is told which one this is; the motors stay off.
+#[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
+fn another_robot_is_not_armed() {
+    use surefoot_sim::closed_loop::firmware::LinkError;
+    let mut target = crate::bench::target();
+    let own = target.identity().robot;
+    let scene = surefoot_sim::scene::load("experiment-1").expect("built in");
+    assert_eq!(own, scene.robot().id());
+    let other = RobotId { fingerprint: own.fingerprint ^ 1, ..own };
+    let Err(LinkError::Refused { answer, .. }) = target.order("arm", &ToTarget::Arm(other)) else {
+        panic!("it is armed for another robot")
+    };
+    assert_eq!(answer, Acknowledged::Robot(own));
+    let torques = target.tick(&Bench::sensors_of(&scene)).expect("an answer");
+    assert_eq!((torques.mode, torques.joint_torques), (Mode::Standby, [0.0; JOINTS]));
 }

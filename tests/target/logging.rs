@@ -1,8 +1,6 @@
 //! Logging costs the tick nothing.
 
-use crate::bench::{Bench, emulator};
-use surefoot_link::Torques;
-use surefoot_sim::closed_loop::firmware::Target;
+use crate::bench::{Bench, Target, Torques, emulator};
 
 /// Ticks of Experiment 1 with one image, and the bytes that it has logged.
 fn play(image: &str) -> (Vec<Torques>, u64) {

@@ -6,11 +6,11 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 use surefoot::balance::Mode;
-use surefoot_link::{LineErrors, Pacing, ToTarget};
-use surefoot_sim::closed_loop::firmware::{Emulator, SerialPort, Target, settings};
+use surefoot_link::{LineErrors, Pacing};
+use surefoot_sim::closed_loop::firmware::{Emulator, SerialPort, settings};
 use surefoot_sim::scene::load;
 
-use crate::bench::{Bench, image, target};
+use crate::bench::{Bench, JOINTS, Target, ToTarget, image, target};
 
 /// An emulator without pipes; it ends with this value.
 pub struct OverUart(Child);
@@ -78,7 +78,7 @@ fn the_uart_carries_the_same_bits() {
 #[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn a_free_running_target_keeps_its_deadline_and_stops_without_its_host() {
     let scene = load("experiment-1").expect("built in");
-    let mut settings = settings(&scene);
+    let mut settings = settings::<JOINTS>(&scene);
     settings.pacing = Pacing::FreeRunning;
     settings.period = 0.09;
     // While this side waits for its turn on the machine the target's clock may run on by more ticks than are bridged:
@@ -90,7 +90,7 @@ fn a_free_running_target_keeps_its_deadline_and_stops_without_its_host() {
         sleep(Duration::from_millis(300));
         let status = target.status().expect("an answer");
         assert_eq!((status.mode, status.overruns), (Mode::Standby, 0));
-        target.order("arm", &ToTarget::Arm).expect("obeyed");
+        target.order("arm", &ToTarget::Arm(scene.robot().id())).expect("obeyed");
         let measurement = target.measurement(&Bench::sensors_of(&scene));
         let frame = target.frame(&measurement);
         let torques = target.tick_raw(&frame).expect("an answer");

@@ -1,13 +1,11 @@
 //! No state makes a tick long: random ones, nearly singular ones, and faulty ones.
 
-use crate::bench::{arm, target};
+use crate::bench::{JOINTS, Sensors, Target, Torques, arm, target};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use surefoot::balance::Mode;
 use surefoot::spatial::Quaternion;
-use surefoot_link::{Sensors, Torques};
-use surefoot_sim::closed_loop::firmware::Target;
 use surefoot_sim::scene::{Scene, load};
 
 /// A state near standing, such as no supervisor stops; the knees' angles are given.
@@ -19,9 +17,14 @@ fn random(random: &mut Pcg64Mcg, knees: [f32; 2]) -> Sensors {
         position: [within(0.3), within(0.3), 1.0 + within(0.2)],
         orientation: [scalar, tilt[0], tilt[1], tilt[2]],
         velocity: std::array::from_fn(|_| within(1.0)),
-        joint_angles: knees
-            .map(|knee| [within(0.5), within(0.8), within(0.5), knee, within(0.5), within(0.8)]),
-        joint_rates: [0, 1].map(|_| std::array::from_fn(|_| within(5.0))),
+        joint_angles: surefoot_link::by_joint(
+            &knees.map(|knee| {
+                [within(0.5), within(0.8), within(0.5), knee, within(0.5), within(0.8)]
+            }),
+            0.0,
+        ),
+        joint_rates: std::array::from_fn(|_| within(5.0)),
+        contacts: 3,
     }
 }
 
@@ -34,10 +37,8 @@ fn later(mut sensors: Sensors, period: f32) -> Sensors {
     let turned = q.product(Quaternion::from_array([1.0, wx / 2.0, wy / 2.0, wz / 2.0])).to_array();
     let norm = turned.iter().map(|x| x * x).sum::<f32>().sqrt();
     sensors.orientation = turned.map(|x| x / norm);
-    for (angles, rates) in sensors.joint_angles.iter_mut().zip(&sensors.joint_rates) {
-        for (angle, rate) in angles.iter_mut().zip(rates) {
-            *angle += period * rate;
-        }
+    for (angle, rate) in sensors.joint_angles.iter_mut().zip(&sensors.joint_rates) {
+        *angle += period * rate;
     }
     sensors
 }
@@ -81,9 +82,9 @@ fn no_state_makes_a_tick_long() {
     let good = random(&mut rng, [-1.0, -1.1]);
     let good_later = later(good, period);
     let spoils: [fn(&mut Sensors); 7] = [
-        |s| s.joint_angles[0][0] = f32::NAN,
-        |s| s.joint_angles[1][5] = 1e30,
-        |s| s.joint_rates[1][5] = f32::INFINITY,
+        |s| s.joint_angles[0] = f32::NAN,
+        |s| s.joint_angles[11] = 1e30,
+        |s| s.joint_rates[11] = f32::INFINITY,
         |s| s.position[0] = f32::NAN,
         |s| s.velocity[5] = f32::NEG_INFINITY,
         |s| s.orientation = [0.0; 4],
@@ -106,7 +107,7 @@ fn no_state_makes_a_tick_long() {
     // A straight knee, found as late as can be: in the second leg.
     let straight = random(&mut rng, [-1.0, 0.0]);
     let mut still = straight;
-    still.joint_rates = [[0.0; 6]; 2];
+    still.joint_rates = [0.0; JOINTS];
     let torques = second_tick(&mut target, &scene, &still, &still);
     assert_ne!(torques.mode, Mode::Active);
     assert!(torques.cost <= *most);

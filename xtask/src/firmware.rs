@@ -1,11 +1,70 @@
-//! `cargo xtask firmware`: the firmware's images.
+//! `cargo xtask firmware`: the firmware's images, of one robot.
 
 use crate::arm_toolchain::ArmToolchain;
 use crate::{emulator, workspace};
-use anyhow::{Context, Result};
-use std::path::PathBuf;
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+use std::path::{Path, PathBuf};
 
 const PACKAGE: &str = "surefoot-firmware";
+
+/// The robot of the text.
+const OF_THE_TEXT: &str = "firmware/robots/biped.rs";
+
+/// Of which robot.
+#[derive(Args)]
+pub struct Options {
+    /// The robot.rs that `surefoot import` wrote; the robot of the text unless said.
+    #[arg(long, value_name = "DIR/robot.rs")]
+    robot: Option<PathBuf>,
+}
+
+/// A robot that firmware is built for.
+pub struct Robot {
+    /// Its robot.rs.
+    source: PathBuf,
+    /// Of the folder of its images.
+    name: String,
+}
+
+impl Robot {
+    /// The robot of the text.
+    pub fn of_the_text() -> Result<Self> {
+        Self::of_file(&workspace::root().join(OF_THE_TEXT))
+    }
+
+    /// As a file describes it.
+    fn of_file(file: &Path) -> Result<Self> {
+        const EXPECTED: &str = "expected the robot.rs that `surefoot import` writes";
+        let source = file
+            .canonicalize()
+            .with_context(|| format!("{} cannot be read; {EXPECTED}", file.display()))?;
+        let text = std::fs::read_to_string(&source)
+            .with_context(|| format!("{} cannot be read; {EXPECTED}", file.display()))?;
+        let name = name(&text).with_context(|| {
+            format!(
+                "{} describes no robot that the firmware balances; {EXPECTED} beside a stand.toml \
+                 (where it writes none, it says why)",
+                file.display()
+            )
+        })?;
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+        ensure!(
+            name.chars().all(is_plain) && !name.starts_with('.'),
+            "{}: the name {name:?} is none for a folder; {EXPECTED}",
+            file.display()
+        );
+        Ok(Self { source, name: name.to_owned() })
+    }
+}
+
+/// Of the folder of images, as a robot.rs says it.
+fn name(text: &str) -> Option<&str> {
+    let (_, module) = text.split_once("\npub mod firmware {")?;
+    let (_, name) = module.split_once("pub const NAME: &str = \"")?;
+    let (name, _) = name.split_once('"')?;
+    Some(name).filter(|name| !name.is_empty())
+}
 
 /// An image of the firmware.
 #[derive(Clone, Copy)]
@@ -30,13 +89,13 @@ impl Variant {
         }
     }
 
-    /// Where the image is put: the simulator and its tests look there.
-    pub fn path(self) -> PathBuf {
-        let folder = workspace::root().join("target/firmware");
-        folder.join(format!("{PACKAGE}-{}.elf", self.name()))
+    /// Where a robot's image is put: the simulator and its tests look there.
+    pub fn path(self, robot: &Robot) -> PathBuf {
+        let folder = workspace::root().join("target/firmware").join(&robot.name);
+        folder.join(format!("{}.elf", self.name()))
     }
 
-    fn build(self, arm: &ArmToolchain) -> Result<()> {
+    fn build(self, arm: &ArmToolchain, robot: &Robot) -> Result<()> {
         let (features, log): (&[&str], _) = match self {
             Self::Board => (&[], "info"),
             Self::Emulation => (&["--features", "emulation"], "debug"),
@@ -44,26 +103,53 @@ impl Variant {
         };
         let cargo = arm.cargo("build").args(["--release", "--package", PACKAGE]);
         let cargo = cargo.args(features.iter().copied()).env("DEFMT_LOG", log);
-        let built = workspace::executables(cargo, [])?;
+        let built = workspace::executables(cargo.env("SUREFOOT_ROBOT", &robot.source), [])?;
         let built = built.first().context("cargo has built no image")?;
-        let path = self.path();
+        let path = self.path(robot);
         std::fs::create_dir_all(path.parent().context("a folder")?)?;
         std::fs::copy(built, &path).with_context(|| format!("cannot write {}", path.display()))?;
         Ok(())
     }
 }
 
-/// Builds all images.
-pub fn build(arm: &ArmToolchain) -> Result<()> {
-    Variant::ALL.into_iter().try_for_each(|variant| variant.build(arm))
+/// Builds all images of a robot.
+pub fn build(arm: &ArmToolchain, robot: &Robot) -> Result<()> {
+    Variant::ALL.into_iter().try_for_each(|variant| variant.build(arm, robot))
 }
 
 /// Builds all images, and says where they are.
-pub fn run() -> Result<()> {
+pub fn run(options: &Options) -> Result<()> {
+    let robot = match &options.robot {
+        Some(file) => Robot::of_file(file)?,
+        None => Robot::of_the_text()?,
+    };
     emulator::provide()?;
-    build(&ArmToolchain::provide()?)?;
+    build(&ArmToolchain::provide()?, &robot)?;
     for variant in Variant::ALL {
-        println!("{}", variant.path().display());
+        println!("{}", variant.path(&robot).display());
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_robot_of_the_text_has_a_name() {
+        let robot = Robot::of_the_text().expect("a robot");
+        assert_eq!(robot.name, "biped");
+        assert!(Variant::Board.path(&robot).ends_with("target/firmware/biped/board.elf"));
+    }
+
+    #[test]
+    fn what_describes_no_robot_to_firmware_is_refused() {
+        let refused = |path: &str| {
+            let error = Robot::of_file(&workspace::root().join(path)).err().expect("refused");
+            format!("{error:#}")
+        };
+        assert!(refused("no-such-robot.rs").contains("surefoot import"));
+        assert!(refused("xtask/src/main.rs").contains("describes no robot"));
+        assert_eq!(name("\npub mod firmware {\npub const NAME: &str = \"\";"), None);
+    }
 }

@@ -37,8 +37,8 @@ struct Arguments {
 enum Chore {
     /// Run all tests, compile core for the target, and prove that the tick cannot panic there.
     Test(test::Options),
-    /// Build the firmware's images: for a board, and for the emulator.
-    Firmware,
+    /// Build the firmware's images of a robot: for a board, and for the emulator.
+    Firmware(firmware::Options),
     /// Measure what the firmware takes on its target, and compare that with its budget.
     Budget(budget::Options),
     /// Count the instructions of one call of each algorithm, by callgrind.
@@ -50,7 +50,7 @@ enum Chore {
 fn main() -> ExitCode {
     let result = match Arguments::parse().chore {
         Chore::Test(options) => test::run(&options),
-        Chore::Firmware => firmware::run(),
+        Chore::Firmware(options) => firmware::run(&options),
         Chore::Budget(options) => budget::run(&options),
         Chore::Instructions(options) => instructions::run(&options),
         Chore::Peers(options) => peers::run(&options),

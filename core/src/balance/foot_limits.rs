@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 /// A rectangular sole: origin at the last joint, axes as the robot was described at home, fixed to the
 /// foot.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sole<T> {
     /// Least and greatest x, m.
     pub x: [T; 2],

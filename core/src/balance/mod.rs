@@ -18,6 +18,7 @@ mod contact_wrenches;
 mod controller;
 mod desired_wrench;
 mod fault;
+mod fingerprint;
 mod foot_limits;
 mod ground_wrench;
 mod joint_torques;

@@ -30,7 +30,7 @@ pub use error::{ImportError, Place, Refusal};
 pub use inertial::Inertial;
 pub use robot::{Coupling, Foot, NamedFrame, Robot, RobotJoint, RobotLink, RobotMotion};
 pub use robot_file::robot_toml;
-pub use rust_source::{legs, robot_rs};
+pub use rust_source::{legs, robot_rs, tree_source};
 pub use tree::core_links;
 
 use description::Description;

@@ -57,6 +57,19 @@ fn reaches(leg: &[RobotLink]) -> bool {
     leg.iter().skip(1).any(|link| link.joint.origin.translation.vector.norm() > 1e-6)
 }
 
+/// A robot's tree as an expression of Rust, of the type that its place gives it.
+pub fn tree_source(robot: &Robot) -> String {
+    let mut out = "Tree::new([\n".to_owned();
+    // Writing to a string does not fail.
+    let mut line = |text: String| out.write_str(&text).unwrap_or_default();
+    for (k, (link, home)) in robot.links.iter().zip(home_links(robot)).enumerate() {
+        line(format!("    // {k}: {} on {}\n", one_line(&link.name), one_line(&link.joint.name)));
+        line(format!("    {},\n", home.to_source()));
+    }
+    line(format!("])\n.with_gravity({:?})", robot.gravity));
+    out
+}
+
 fn write(robot: &Robot, out: &mut String) -> std::fmt::Result {
     let n = robot.links.len();
     let velocities = robot.degrees_of_freedom();
@@ -78,12 +91,7 @@ fn write(robot: &Robot, out: &mut String) -> std::fmt::Result {
         velocities + quaternions
     )?;
     writeln!(out, "/// In double precision.\n#[rustfmt::skip]")?;
-    writeln!(out, "pub const TREE: Robot<f64> = Tree::new([")?;
-    for (k, (link, home)) in robot.links.iter().zip(home_links(robot)).enumerate() {
-        writeln!(out, "    // {k}: {} on {}", one_line(&link.name), one_line(&link.joint.name))?;
-        writeln!(out, "    {},", home.to_source())?;
-    }
-    writeln!(out, "])\n.with_gravity({:?});\n", robot.gravity)?;
+    writeln!(out, "pub const TREE: Robot<f64> = {};\n", tree_source(robot))?;
     writeln!(out, "/// In single precision, for the target.")?;
     writeln!(out, "pub const TREE_F32: Robot<f32> = TREE.to_f32();\n")?;
     if let Some(legs) = legs {

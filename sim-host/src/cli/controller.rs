@@ -1,12 +1,13 @@
 //! Where the controller runs, and in which precision.
 
-use crate::closed_loop::firmware::{Emulator, FirmwareController, LinkError, SerialPort, Target};
+use crate::closed_loop::firmware::{
+    Emulator, LinkError, SerialPort, firmware_controller, image_for,
+};
 use crate::closed_loop::{self, Controller, Scalar};
 use crate::scene::Scene;
 use clap::Args;
 use serde::Serialize;
-use std::path::{Path, PathBuf};
-use surefoot_link::Clock;
+use std::path::PathBuf;
 
 /// Options of `run` about the controller.
 #[derive(Debug, Args)]
@@ -17,7 +18,7 @@ pub struct ControllerOptions {
     /// Where the controller runs
     #[arg(long = "controller", value_enum, default_value = "host")]
     pub place: Place,
-    /// With `--controller firmware`: the image to run in the emulator
+    /// With `--controller firmware`: the image to run in the emulator, instead of the one built for the scene's robot
     #[arg(long, value_name = "ELF", conflicts_with = "port")]
     firmware: Option<PathBuf>,
     /// With `--controller firmware`: the serial port of a board, in place of the emulator
@@ -36,10 +37,6 @@ pub enum Place {
     /// On the target: in the emulator, or on a board.
     Firmware,
 }
-
-/// The image that `cargo xtask firmware` leaves.
-const FIRMWARE: &str =
-    concat!(env!("CARGO_MANIFEST_DIR"), "/../target/firmware/surefoot-firmware-emulation.elf");
 
 impl ControllerOptions {
     /// Whether anything differs from what is assumed.
@@ -81,16 +78,13 @@ impl ControllerOptions {
             Place::Bare => return Ok(closed_loop::bare_controller(scene, self.scalar())),
             Place::Firmware => {}
         }
-        let target = match &self.port {
-            Some(port) => Target::connect(SerialPort::open(port)?)?,
-            None => {
-                let image = self.firmware.as_deref().unwrap_or(Path::new(FIRMWARE));
-                Target::connect(Emulator::start(image, &std::env::temp_dir())?)?
-            }
-        };
-        if let Clock::Internal(reason) = target.identity().clock {
-            eprintln!("the board runs without its crystal: {reason}");
+        if let Some(port) = &self.port {
+            return firmware_controller(SerialPort::open(port)?, scene);
         }
-        Ok(Box::new(FirmwareController::new(target, scene)?))
+        let image = match &self.firmware {
+            Some(image) => image.clone(),
+            None => image_for(scene)?,
+        };
+        firmware_controller(Emulator::start(&image, &std::env::temp_dir())?, scene)
     }
 }

@@ -1,7 +1,9 @@
 //! `surefoot import`: a URDF or MJCF file to a robot of names, and to const data for firmware.
 
 use super::{BAD_INPUT, RUN_FAILED, complain, say};
+use crate::closed_loop::firmware::robot_module;
 use crate::robot::{Robot as SceneRobot, stand_scene};
+use crate::scene::load;
 use crate::written::write_text;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
@@ -114,18 +116,12 @@ pub(super) fn run(options: &Options) -> ExitCode {
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from(options.robot.file_stem().unwrap_or("robot".as_ref())));
-    let mut files = vec![("robot.toml", robot_toml(&imported.robot)), ("robot.rs", source)];
     let standing = standing(&options.robot, &how, &imported.locked);
-    if let Ok(scene) = &standing {
-        files.push(("stand.toml", scene.clone()));
-    }
-    for (name, text) in &files {
-        if let Err(error) = write(&folder, name, text) {
-            return failed("file", &error, options.json);
-        }
-    }
-    let paths: Vec<String> =
-        files.iter().map(|(name, _)| folder.join(name).display().to_string()).collect();
+    let written = write_all(&folder, &robot_toml(&imported.robot), source, standing.as_ref().ok());
+    let paths = match written {
+        Ok(paths) => paths,
+        Err(error) => return failed("file", &error, options.json),
+    };
     let said = match options.json {
         true => format!("{:#}\n", document(&imported, &paths)),
         false => summary(&imported, &paths, standing.as_ref().err()),
@@ -148,9 +144,29 @@ fn standing(path: &Path, how: &ImportOptions, gone: &[(String, f64)]) -> Result<
         .ok_or_else(|| "its legs find no angles to stand on".into())
 }
 
-fn write(folder: &Path, name: &str, text: &str) -> Result<(), String> {
+/// Writes the files, and says which. What firmware takes is read from the others, as a run reads them.
+fn write_all(
+    folder: &Path,
+    robot: &str,
+    mut source: String,
+    standing: Option<&String>,
+) -> Result<Vec<String>, String> {
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    write_text(&folder.join(name), text)
+    let mut paths = Vec::new();
+    let mut write = |name: &str, text: &str| {
+        let path = folder.join(name);
+        paths.push(path.display().to_string());
+        write_text(&path, text)
+    };
+    write("robot.toml", robot)?;
+    if let Some(standing) = standing {
+        write("stand.toml", standing)?;
+        let scene = load(&folder.join("stand.toml").display().to_string());
+        let scene = scene.map_err(|error| format!("what was written cannot be read: {error}"))?;
+        source += &robot_module(&scene).unwrap_or_default();
+    }
+    write("robot.rs", &source)?;
+    Ok(paths)
 }
 
 /// A robot file that is refused: exit status 2.

@@ -13,7 +13,7 @@ use crate::follow::Until;
 use crate::integrators::Method;
 use crate::record::{MotionIdentity, RobotRecord, SavedRun};
 use crate::report::page;
-use crate::scene::{AnyScene, Distribution, Feet, Scene, TorquesFrom, open};
+use crate::scene::{AnyScene, Feet, Scene, TorquesFrom, open};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
@@ -133,11 +133,6 @@ pub fn run(options: &Options) -> ExitCode {
 fn run_robot(scene: Scene, options: &Options) -> Result<ExitCode, String> {
     options.controller.check()?;
     let (scene, reason) = with_options(scene, options)?;
-    if options.controller.place == Place::Firmware
-        && scene.controller.distribution == Distribution::Limited
-    {
-        return Err("--controller firmware: it knows no limits of floor and motors yet; this scene has controller.distribution = \"limited\"".to_owned());
-    }
     let scalar = options.controller.scalar();
     let saved = options.saved(scene.duration_s)?;
     if let Some(saved) = &saved {

@@ -1,14 +1,15 @@
 //! What a scene's floor and motors can give, as its controller knows it.
 
 use crate::contact::Floor;
-use crate::robot::{SharedRobot, by_leg};
+use crate::robot::{LEG, Robot, SharedRobot, by_leg};
 use crate::scene::{Distribution, Feet, Scene};
 use serde::Serialize;
 use surefoot::Real;
 use surefoot::balance::{
-    self, Command, ContactLimit, Fault, Ground, LeggedRobot, LimitMemory, LimitReport, Reference,
-    RobotState, Sole, WrenchLimits, limited_tick,
+    self, Command, ContactLimit, Fault, Ground, LeggedRobot, LimitMemory, Reference, RobotState,
+    Sole, WrenchLimits, limited_tick,
 };
+use surefoot_link::TickLimits;
 
 /// Shares of friction and of the soles' lengths that the controller counts on.
 const FRICTION_SHARE: f64 = 0.8;
@@ -58,30 +59,58 @@ pub struct WorstLimit {
     pub relief: f64,
 }
 
-impl<T: Real, const LEGS: usize> Limiting<T, LEGS> {
-    /// Of a scene whose controller's distribution is limited.
-    pub fn of(scene: &Scene, model: &LeggedRobot<T, LEGS>) -> Option<Self> {
+/// What a scene's floor and motors give.
+pub(super) struct Given {
+    pub ground: Ground<f64>,
+    /// Of each leg, so much of it as is counted on.
+    pub soles: Vec<Sole<f64>>,
+    /// Greatest torques, joint by joint, N·m.
+    pub torques: Vec<f64>,
+}
+
+impl Given {
+    /// To a controller whose distribution is limited.
+    pub fn by(scene: &Scene) -> Option<Self> {
         let Feet::Floor { floor, .. } = &scene.feet else { return None };
         if scene.controller.distribution != Distribution::Limited {
             return None;
         }
-        let robot = scene.robot().clone();
+        let robot = scene.robot();
         let weight = robot.tree.mass() * robot.tree.gravity().norm();
         let ground = Ground {
-            least_force: T::of(LEAST_FORCE),
-            greatest_force: T::of(MOST_WEIGHTS * weight),
-            friction: T::of(FRICTION_SHARE * friction(floor)),
+            least_force: LEAST_FORCE,
+            greatest_force: MOST_WEIGHTS * weight,
+            friction: FRICTION_SHARE * friction(floor),
         };
-        let joints: Vec<f64> = robot.limits.joints.iter().map(|joint| joint.torque).collect();
-        let mut torques: [[f64; 6]; LEGS] = by_leg(&joints);
+        let mut torques: Vec<f64> = robot.limits.joints.iter().map(|joint| joint.torque).collect();
         if let Some(motors) = scene.acting.torque_limits_nm {
-            torques = torques.map(|leg| std::array::from_fn(|k| leg[k].min(motors[k])));
+            for (torque, motor) in torques.iter_mut().zip(motors.into_iter().cycle()) {
+                *torque = torque.min(motor);
+            }
         }
         let soles = robot.soles().expect("the scene's check requires soles");
-        let soles: [Sole<T>; LEGS] = std::array::from_fn(|leg| counted_on(&soles[leg]));
+        Some(Self { ground, soles: soles.iter().map(counted_on).collect(), torques })
+    }
+}
+
+impl<T: Real, const LEGS: usize> Limiting<T, LEGS> {
+    /// Of a scene whose controller's distribution is limited.
+    pub fn of(scene: &Scene, model: &LeggedRobot<T, LEGS>) -> Option<Self> {
+        let Given { ground, soles, torques } = Given::by(scene)?;
+        let ground = Ground {
+            least_force: T::of(ground.least_force),
+            greatest_force: T::of(ground.greatest_force),
+            friction: T::of(ground.friction),
+        };
+        let torques: [[f64; LEG]; LEGS] = by_leg(&torques);
+        let soles: [Sole<T>; LEGS] = std::array::from_fn(|leg| {
+            let Sole { x, y, z } = soles[leg];
+            Sole { x: x.map(T::of), y: y.map(T::of), z: T::of(z) }
+        });
         let limits = WrenchLimits::new(model, &soles, ground, &torques.map(|leg| leg.map(T::of)))
             .expect("a checked floor, and a robot with limits");
         let (memory, tally) = (LimitMemory::new(), LimitTally::default());
+        let robot = scene.robot();
         Some(Self { robot, limits, memory, contacts: [true; LEGS], time_s: 0.0, tally })
     }
 
@@ -102,34 +131,8 @@ impl<T: Real, const LEGS: usize> Limiting<T, LEGS> {
     ) -> Result<Command<T, LEGS>, Fault> {
         let Self { limits, memory, contacts, .. } = self;
         let answer = limited_tick(controller, limits, state, reference, contacts, memory)?;
-        self.count(&answer.limits);
+        self.tally.count(&self.robot, self.time_s, &TickLimits::from(&answer.limits));
         Ok(answer.command)
-    }
-
-    fn count(&mut self, report: &LimitReport<T, LEGS>) {
-        let tally = &mut self.tally;
-        tally.ticks += 1;
-        tally.active += u64::from(report.is_limited());
-        tally.active_share = tally.active as f64 / tally.ticks as f64;
-        tally.unfinished += u64::from(matches!(
-            report.status,
-            surefoot::qp::Status::BudgetSpent | surefoot::qp::Status::TooManyRows
-        ));
-        let Some(reason) = report.worst else { return };
-        let relief = reason.relief.to_f64();
-        if tally.worst.as_ref().is_some_and(|worst| worst.relief >= relief) {
-            return;
-        }
-        let (limit, joint) = match reason.limit {
-            ContactLimit::Lift => ("lift", None),
-            ContactLimit::Press => ("press", None),
-            ContactLimit::Slip => ("slip", None),
-            ContactLimit::Tip => ("tip", None),
-            ContactLimit::Twist => ("twist", None),
-            ContactLimit::Torque(joint) => ("torque", Some(joint)),
-        };
-        let leg = self.robot.legs.get(reason.foot).cloned().unwrap_or_default();
-        tally.worst = Some(WorstLimit { limit, leg, joint, time_s: self.time_s, relief });
     }
 
     /// What became of the ticks so far.
@@ -149,16 +152,41 @@ impl<T: Real, const LEGS: usize> Limiting<T, LEGS> {
     }
 }
 
+impl LimitTally {
+    /// One more tick.
+    pub(super) fn count<T: Real>(&mut self, robot: &Robot, time_s: f64, tick: &TickLimits<T>) {
+        self.ticks += 1;
+        self.active += u64::from(tick.is_active);
+        self.active_share = self.active as f64 / self.ticks as f64;
+        self.unfinished += u64::from(tick.is_unfinished);
+        let Some(reason) = tick.worst else { return };
+        let relief = reason.relief.to_f64();
+        if self.worst.as_ref().is_some_and(|worst| worst.relief >= relief) {
+            return;
+        }
+        let (limit, joint) = match reason.limit {
+            ContactLimit::Lift => ("lift", None),
+            ContactLimit::Press => ("press", None),
+            ContactLimit::Slip => ("slip", None),
+            ContactLimit::Tip => ("tip", None),
+            ContactLimit::Twist => ("twist", None),
+            ContactLimit::Torque(joint) => ("torque", Some(joint)),
+        };
+        let leg = robot.legs.get(reason.foot).cloned().unwrap_or_default();
+        self.worst = Some(WorstLimit { limit, leg, joint, time_s, relief });
+    }
+}
+
 /// What a floor can be counted on to hold.
 fn friction(floor: &Floor) -> f64 {
     floor.static_friction.min(floor.dynamic_friction)
 }
 
 /// The share of a sole that is counted on.
-fn counted_on<T: Real>(sole: &Sole<f64>) -> Sole<T> {
+fn counted_on(sole: &Sole<f64>) -> Sole<f64> {
     let range = |[least, greatest]: [f64; 2]| {
         let (middle, half) = (0.5 * (least + greatest), 0.5 * SOLE_SHARE * (greatest - least));
-        [T::of(middle - half), T::of(middle + half)]
+        [middle - half, middle + half]
     };
-    Sole { x: range(sole.x), y: range(sole.y), z: T::of(sole.z) }
+    Sole { x: range(sole.x), y: range(sole.y), z: sole.z }
 }

@@ -5,6 +5,7 @@
 
 mod biped;
 mod from_file;
+mod identity;
 mod limits;
 mod sized_tree;
 mod soles;

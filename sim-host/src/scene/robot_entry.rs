@@ -6,10 +6,10 @@ use crate::robot::{Robot, SharedRobot, stance};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use surefoot::spatial::Quaternion;
-use surefoot_robots::{Options, import, robot_toml};
+use surefoot_robots::{Options, Robot as Described, import, robot_toml};
 
 /// The robot of a scene. Joints that no foot hangs from are locked at 0, unless another place is given.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,9 +30,16 @@ pub struct RobotEntry {
     loaded: Loaded,
 }
 
-/// The robot that was read; robots are compared by their content.
+/// What was read; robots are compared by their content.
 #[derive(Clone, Debug, Default)]
-struct Loaded(Option<SharedRobot>);
+struct Loaded(Option<Arc<Read>>);
+
+#[derive(Debug)]
+struct Read {
+    path: PathBuf,
+    described: Described,
+    robot: SharedRobot,
+}
 
 impl PartialEq for Loaded {
     fn eq(&self, _: &Self) -> bool {
@@ -43,7 +50,17 @@ impl PartialEq for Loaded {
 impl RobotEntry {
     /// The robot; `None` before the scene was read.
     pub(super) fn robot(&self) -> Option<SharedRobot> {
-        self.loaded.0.clone()
+        self.loaded.0.as_ref().map(|read| read.robot.clone())
+    }
+
+    /// The same as its file describes it, with what is locked lumped into what carries it.
+    pub fn described(&self) -> Option<&Described> {
+        self.loaded.0.as_ref().map(|read| &read.described)
+    }
+
+    /// The file that was read.
+    pub fn path(&self) -> Option<&Path> {
+        self.loaded.0.as_ref().map(|read| read.path.as_path())
     }
 }
 
@@ -77,7 +94,9 @@ pub(super) fn resolve(
         start.state = state;
     }
     if let Some(entry) = &mut scene.robot {
-        (entry.content, entry.loaded) = (content, Loaded(Some(robot)));
+        let described = imported.robot;
+        (entry.content, entry.loaded) =
+            (content, Loaded(Some(Arc::new(Read { path, described, robot }))));
     }
     Ok(())
 }

@@ -4,14 +4,20 @@ use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 use surefoot::balance::Mode;
 use surefoot_link::{
-    Acknowledged, Clock, Counter, FRAME, FaultLog, FromTarget, Identity, LineErrors, Receiver,
-    Rejected, Sender, Status, ToTarget,
+    Acknowledged, Clock, Counter, FaultLog, Identity, LineErrors, MOST_FRAME, Receiver, Rejected,
+    RobotId, Sender, Status,
 };
-use surefoot_sim::closed_loop::firmware::{LinkError, SerialPort, Target, Transport};
+use surefoot_sim::closed_loop::firmware::{FirmwareController, LinkError, SerialPort, Transport};
+use surefoot_sim::scene::load;
+
+const JOINTS: usize = 12;
+type ToTarget = surefoot_link::ToTarget<JOINTS>;
+type FromTarget = surefoot_link::FromTarget<JOINTS>;
+type Target = surefoot_sim::closed_loop::firmware::Target<JOINTS>;
 
 /// A target in the middle of its life.
 struct Played {
-    receiver: Receiver<ToTarget>,
+    receiver: Receiver<ToTarget, MOST_FRAME>,
     sender: Sender,
     /// Bytes that it does not hear.
     deaf_for: usize,
@@ -29,7 +35,7 @@ impl Played {
         };
         let mut host = Sender::new(2);
         for _ in 0..frames {
-            let mut wire = [0; FRAME];
+            let mut wire = [0; MOST_FRAME];
             let bytes = host.encode(&ToTarget::Disarm, &mut wire).expect("it fits");
             for byte in bytes {
                 played.receiver.take(*byte);
@@ -40,12 +46,13 @@ impl Played {
     }
 
     fn answer(&mut self, message: &FromTarget) {
-        let mut wire = [0; FRAME];
+        let mut wire = [0; MOST_FRAME];
         self.to_host.push_back(self.sender.encode(message, &mut wire).expect("it fits").to_vec());
     }
 }
 
 const IDENTITY: Identity = Identity {
+    robot: RobotId { joints: 18, fingerprint: 0x1234_5678 },
     counter: Counter::Cycles,
     per_second: 168_000_000,
     resets: 1,
@@ -77,8 +84,8 @@ impl Transport for Played {
                     });
                     self.answer(&status);
                 }
-                Some(Ok(ToTarget::Arm)) => {
-                    self.answer(&FromTarget::Acknowledged(Acknowledged::TooFast(709)));
+                Some(Ok(ToTarget::Arm(_))) => {
+                    self.answer(&FromTarget::Acknowledged(Acknowledged::TooFast(713)));
                 }
                 // It is reset, and says so by itself.
                 Some(Ok(ToTarget::Disarm)) => {
@@ -123,13 +130,25 @@ fn a_lost_question_is_asked_again() {
 #[test]
 fn what_a_target_says_is_what_the_host_reports() {
     let mut target = Target::connect(Played::after(0)).expect("an answer");
-    let refused = target.order("arm", &ToTarget::Arm).expect_err("it refuses");
+    let refused = target.order("arm", &ToTarget::Arm(IDENTITY.robot)).expect_err("it refuses");
     assert_eq!(
         refused.to_string(),
-        "the target refuses arm: a measurement a tick needs periods of 709 µs or more on this line"
+        "the target refuses arm: a measurement a tick needs periods of 713 µs or more on this line"
     );
     let reset = target.order("disarm", &ToTarget::Disarm).expect_err("it was reset");
     assert!(matches!(reset, LinkError::Rejected(Rejected::Session)), "{reset}");
+}
+
+/// Before anything is asked of a target of another robot, the host says which both are, and what to do.
+#[test]
+fn a_target_of_another_robot_is_refused() {
+    let scene = load("experiment-1").expect("built in");
+    let target = Target::connect(Played::after(0)).expect("an answer");
+    let error = FirmwareController::new(target, &scene).err().expect("refused").to_string();
+    let own = format!("{:08x}", scene.robot().id().fingerprint);
+    for word in ["biped", "12 joints", &own, "18 joints", "12345678", "`cargo xtask firmware`"] {
+        assert!(error.contains(word), "{error} has no {word}");
+    }
 }
 
 /// Ports that are none: the message names the path.

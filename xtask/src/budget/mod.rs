@@ -6,7 +6,7 @@ mod trace;
 
 use crate::arm_toolchain::ArmToolchain;
 use crate::emulator;
-use crate::firmware::Variant;
+use crate::firmware::{self, Robot, Variant};
 use crate::image::{self, reachable_panics};
 use crate::step::Step;
 use crate::workspace;
@@ -114,7 +114,7 @@ impl Report {
 /// Measures and prints; an error if something is over its limit.
 pub fn run(options: &Options) -> Result<()> {
     let arm = ArmToolchain::provide()?;
-    crate::firmware::build(&arm)?;
+    firmware::build(&arm, &Robot::of_the_text()?)?;
     let report = measure(&arm)?;
     if options.json {
         println!("{}", serde_json::to_string_pretty(&report)?);
@@ -145,13 +145,14 @@ pub fn measure(arm: &ArmToolchain) -> Result<Report> {
     let document = Step::new(program, [&trace]).run_and_read()?;
     let measured: Measured = serde_json::from_str(&document).context("the example's document")?;
 
-    let contents = std::fs::read(Variant::Emulation.path())?;
+    let robot = Robot::of_the_text()?;
+    let contents = std::fs::read(Variant::Emulation.path(&robot))?;
     let emulated = image::parse(&contents)?;
     let ticks = trace::ticks(&trace, image::function(&emulated, "TIM2")?, measured.traced_ticks)?;
     std::fs::remove_file(&trace)?;
     let Cycles { most, classes } = cycles::of(&ticks)?;
 
-    let contents = std::fs::read(Variant::Board.path())?;
+    let contents = std::fs::read(Variant::Board.path(&robot))?;
     let board = image::parse(&contents)?;
     ensure!(
         !reachable_panics(&board, "main")?.is_empty(),

@@ -7,7 +7,7 @@ use anyhow::{Result, ensure};
 
 /// Builds, measures, and compares.
 pub fn run(arm: &ArmToolchain) -> Result<String> {
-    firmware::build(arm)?;
+    firmware::build(arm, &firmware::Robot::of_the_text()?)?;
     let report = measure(arm)?;
     budget::print(&report);
     ensure!(report.broken().is_empty(), "over budget: {}", report.broken().join("; "));

@@ -3,6 +3,7 @@
 use crate::step::Step;
 use crate::{apt, workspace};
 use anyhow::{Context, Result};
+use std::path::PathBuf;
 
 /// Robot files, and the tool that MJCF models are held against.
 const PACKAGES: [&str; 4] =
@@ -17,8 +18,23 @@ for package in sys.argv[1:]:
     assert m.version(name) == version, package
 print(sysconfig.get_path('purelib'))";
 
-/// Installs what is missing into a folder of its own below the target folder, and runs the tests.
-pub fn run() -> Result<String> {
+/// Where they are.
+pub struct Files {
+    python: PathBuf,
+    folder: String,
+}
+
+impl Files {
+    /// Tells tests where to find them.
+    pub fn given_to(&self, tests: Step) -> Step {
+        tests
+            .env("SUREFOOT_ROBOT_PYTHON", &self.python)
+            .env("SUREFOOT_ROBOT_FILES", self.folder.as_str())
+    }
+}
+
+/// Installs what is missing into a folder of its own below the target folder.
+pub fn files() -> Result<Files> {
     let folder = workspace::root().join("target").join("robots").join("python");
     let python = folder.join("bin").join("python");
     let probe = Step::new(&python, ["-c", PROBE]).args(PACKAGES);
@@ -37,10 +53,14 @@ pub fn run() -> Result<String> {
                 "the packages of robot files cannot be installed from Python's package index",
             )?;
     }
-    let files = probe.read()?;
-    workspace::ignored_tests("real_robots")
-        .env("SUREFOOT_ROBOT_PYTHON", &python)
-        .env("SUREFOOT_ROBOT_FILES", files.trim())
+    let folder = probe.read()?.trim().to_owned();
+    Ok(Files { python, folder })
+}
+
+/// Runs the tests, with what is missing installed.
+pub fn run() -> Result<String> {
+    files()?
+        .given_to(workspace::ignored_tests("real_robots"))
         .run()
         .context("a robot of another project fails, as is said above under its name")?;
     Ok(format!("robots of {}", PACKAGES.join(", ")))

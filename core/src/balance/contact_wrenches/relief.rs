@@ -7,6 +7,7 @@ use crate::spatial::Wrench;
 
 /// A limit of a foot, and what it costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Reason<T> {
     /// Index of the foot.
     pub foot: usize,

@@ -36,6 +36,7 @@ pub(super) const STRIDE: u8 = 32;
 
 /// A limit of one foot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ContactLimit {
     /// Least normal force.
     Lift,

@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 /// What a floor gives every foot.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ground<T> {
     /// Least force normal to a sole, N, not negative: what keeps a foot that is to stand from lifting.
     pub least_force: T,

@@ -1,32 +1,71 @@
 //! The controller on a target, in place of the host's.
 
-use super::{LinkError, Target};
-use crate::closed_loop::{Commanded, ControlFailure, Controller, Costs, measured};
+use super::{LinkError, Target, Transport, image};
+use crate::closed_loop::limiting::{Given, LimitTally};
+use crate::closed_loop::{Commanded, ControlFailure, Controller, Costs};
 use crate::plant::PlantState;
+use crate::robot::{LEG, SharedRobot, with_tree};
 use crate::scene::{Scene, Workspace};
-use surefoot::balance::StopReason;
-use surefoot::model::robots::biped;
-use surefoot_link::{Counter, Pacing, Sensors, SetPoint, Settings, ToTarget, Torques};
+use surefoot::balance::{Ground, JointLimits, Sole, StopReason, Thresholds};
+use surefoot_link::{
+    Clock, Counter, Pacing, Sensors, SetPoint, Settings, ToTarget, Torques, WrenchSettings,
+};
 
 /// A target that balances a scene's plant, in lock step with it.
-pub struct FirmwareController {
-    target: Target,
+pub struct FirmwareController<const JOINTS: usize> {
+    target: Target<JOINTS>,
+    robot: SharedRobot,
     /// What each tick has cost, in the target's unit.
     costs: Vec<u32>,
     stopped: Option<StopReason>,
+    /// Of the next tick, s.
+    time_s: f64,
+    /// Feet that touch the ground then, as bits.
+    contacts: u8,
+    /// Of ticks within limits.
+    tally: Option<LimitTally>,
 }
 
-impl FirmwareController {
+/// A scene's controller on a target of its robot.
+///
+/// # Errors
+/// A [`LinkError`].
+pub fn firmware_controller<T: Transport + 'static>(
+    transport: T,
+    scene: &Scene,
+) -> Result<Box<dyn Controller>, LinkError> {
+    with_tree!(&scene.robot().tree, _tree, LEGS => {
+        let target = Target::<{ LEG * LEGS }>::connect(transport)?;
+        if let Clock::Internal(reason) = target.identity().clock {
+            eprintln!("the board runs without its crystal: {reason}");
+        }
+        Ok(Box::new(FirmwareController::new(target, scene)?))
+    })
+}
+
+impl<const JOINTS: usize> FirmwareController<JOINTS> {
     /// Configures a target for a scene, and arms it.
     ///
     /// # Errors
-    /// A [`LinkError`].
-    pub fn new(mut target: Target, scene: &Scene) -> Result<Self, LinkError> {
+    /// [`LinkError::AnotherRobot`] for a target that has been built for another one than the scene's, or another
+    /// [`LinkError`].
+    pub fn new(mut target: Target<JOINTS>, scene: &Scene) -> Result<Self, LinkError> {
+        let robot = scene.robot();
+        let (wanted, found) = (robot.id(), target.identity().robot);
+        if wanted != found {
+            let (name, command) = (robot.name.clone(), image::command(scene));
+            return Err(LinkError::AnotherRobot { name, wanted, found, command });
+        }
         target.order("disarm", &ToTarget::Disarm)?;
         target.order("configure", &ToTarget::Configure(settings(scene)))?;
+        let limits = wrench_settings(scene);
+        if let Some(limits) = &limits {
+            target.order("limits of ground and motors", &ToTarget::Limit(limits.clone()))?;
+        }
         target.order("set point", &ToTarget::SetPoint(set_point(scene)))?;
-        target.order("arm", &ToTarget::Arm)?;
-        Ok(Self { target, costs: Vec::new(), stopped: None })
+        target.order("arm", &ToTarget::Arm(wanted))?;
+        let (costs, stopped, tally) = (Vec::new(), None, limits.map(|_| LimitTally::default()));
+        Ok(Self { target, robot, costs, stopped, time_s: 0.0, contacts: u8::MAX, tally })
     }
 
     /// What each tick has cost, in the target's unit.
@@ -35,7 +74,7 @@ impl FirmwareController {
     }
 
     /// The target.
-    pub fn target(&mut self) -> &mut Target {
+    pub fn target(&mut self) -> &mut Target<JOINTS> {
         &mut self.target
     }
 
@@ -43,33 +82,85 @@ impl FirmwareController {
     ///
     /// # Errors
     /// A [`LinkError`].
-    pub fn exchange(&mut self, state: &PlantState) -> Result<Torques, LinkError> {
-        let torques = self.target.tick(&Sensors::from(&measured(state)))?;
+    pub fn exchange(&mut self, state: &PlantState) -> Result<Torques<JOINTS>, LinkError> {
+        let sensors = Sensors { contacts: self.contacts, ..sensors(state) };
+        let torques = self.target.tick(&sensors)?;
         self.costs.push(torques.cost);
         Ok(torques)
     }
 }
 
-/// A scene's settings in single precision, with the biped's limits.
-pub fn settings(scene: &Scene) -> Settings {
+/// What sensors read of a state, in single precision; numbers that it does not have are NaN, which no target takes. All
+/// feet touch the ground.
+pub fn sensors<const JOINTS: usize>(state: &PlantState) -> Sensors<JOINTS> {
+    fn of<const N: usize>(all: &[f64], from: usize) -> [f32; N] {
+        std::array::from_fn(|i| all.get(from + i).copied().unwrap_or(f64::NAN) as f32)
+    }
+    let PlantState { positions, velocities } = state;
+    Sensors {
+        position: of(positions, 0),
+        orientation: of(positions, 3),
+        velocity: of(velocities, 0),
+        joint_angles: of(positions, 7),
+        joint_rates: of(velocities, 6),
+        contacts: u8::MAX,
+    }
+}
+
+/// A scene's settings in single precision, with its robot's limits.
+pub fn settings<const JOINTS: usize>(scene: &Scene) -> Settings<JOINTS> {
     let settings = &scene.controller;
-    let single = |gain: [f64; 3]| gain.map(|x| x as f32);
+    let (limits, thresholds) = single_precision(scene);
+    let none = JointLimits { torque: f32::NAN, angle: [f32::NAN; 2], rate: f32::NAN };
     Settings {
         period: (1.0 / settings.rate_hz) as f32,
         pacing: Pacing::LockStep,
-        gains: [
-            single(settings.position_gain),
-            single(settings.velocity_gain),
-            single(settings.orientation_gain),
-            single(settings.angular_velocity_gain),
-        ],
+        gains: gains(scene),
         big_base: match settings.workspace {
             Workspace::FixedFoot => None,
             Workspace::BigBase(factor) => Some(factor as f32),
         },
-        joint_limits: biped::LIMITS.to_f32().joints,
-        thresholds: biped::LIMITS.to_f32().thresholds,
+        joint_limits: std::array::from_fn(|joint| limits.get(joint).copied().unwrap_or(none)),
+        thresholds,
     }
+}
+
+/// Limits of the scene's robot.
+fn single_precision(scene: &Scene) -> (Vec<JointLimits<f32>>, Thresholds<f32>) {
+    let robot = scene.robot();
+    with_tree!(&robot.tree, _tree, LEGS => {
+        let limits = robot.limits.sized::<LEGS>().expect("a robot has limits for each of its joints");
+        let limits = limits.to_f32();
+        (limits.joints.as_flattened().to_vec(), limits.thresholds)
+    })
+}
+
+/// Diagonals of a scene's gain matrices, in the order of `Gains`.
+pub(super) fn gains(scene: &Scene) -> [[f32; 3]; 4] {
+    let settings = &scene.controller;
+    let all = [
+        settings.position_gain,
+        settings.velocity_gain,
+        settings.orientation_gain,
+        settings.angular_velocity_gain,
+    ];
+    all.map(|gain| gain.map(|x| x as f32))
+}
+
+/// A scene's limits of ground and motors, if it has any, in single precision.
+pub fn wrench_settings<const JOINTS: usize>(scene: &Scene) -> Option<WrenchSettings<JOINTS>> {
+    let Given { ground, soles, torques } = Given::by(scene)?;
+    let single = |range: [f64; 2]| range.map(|x| x as f32);
+    let sole = |sole: &Sole<f64>| Sole { x: single(sole.x), y: single(sole.y), z: sole.z as f32 };
+    Some(WrenchSettings {
+        ground: Ground {
+            least_force: ground.least_force as f32,
+            greatest_force: ground.greatest_force as f32,
+            friction: ground.friction as f32,
+        },
+        soles: soles.iter().map(sole).collect(),
+        torques: std::array::from_fn(|k| torques.get(k).map_or(f32::NAN, |torque| *torque as f32)),
+    })
 }
 
 /// A scene's set point in single precision.
@@ -80,9 +171,17 @@ pub fn set_point(scene: &Scene) -> SetPoint {
     }
 }
 
-impl Controller for FirmwareController {
+impl<const JOINTS: usize> Controller for FirmwareController<JOINTS> {
     fn stopped(&self) -> Option<StopReason> {
         self.stopped
+    }
+
+    fn touch(&mut self, time_s: f64, feet: &[bool]) {
+        (self.time_s, self.contacts) = (time_s, Sensors::<JOINTS>::contact_bits(feet));
+    }
+
+    fn limits(&self) -> Option<LimitTally> {
+        self.tally.clone()
     }
 
     fn costs(&self) -> Option<Costs> {
@@ -103,9 +202,11 @@ impl Controller for FirmwareController {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let torques = self.exchange(state)?;
         self.stopped = torques.reason;
-        let joints = torques.joint_torques.as_flattened();
+        if let (Some(tally), Some(limits)) = (&mut self.tally, &torques.limits) {
+            tally.count(&self.robot, self.time_s, limits);
+        }
         Ok(Commanded {
-            torques: joints.iter().copied().map(f64::from).collect(),
+            torques: torques.joint_torques.map(f64::from).to_vec(),
             desired_wrench: torques.desired_wrench.map(f64::from),
         })
     }

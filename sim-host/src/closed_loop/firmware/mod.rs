@@ -7,12 +7,21 @@
 
 mod controller;
 mod emulator;
+mod image;
+mod robot_module;
 mod serial;
 mod target;
 mod transport;
 
-pub use controller::{FirmwareController, set_point, settings};
+pub use controller::{
+    FirmwareController, firmware_controller, sensors, set_point, settings, wrench_settings,
+};
 pub use emulator::Emulator;
+pub use image::image_for;
+pub use robot_module::robot_module;
 pub use serial::SerialPort;
 pub use target::{LinkError, Target};
 pub use transport::Transport;
+
+use controller::gains;
+use image::folder_name;

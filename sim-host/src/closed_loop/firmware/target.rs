@@ -3,10 +3,11 @@
 use super::Transport;
 use std::collections::VecDeque;
 use std::hash::{BuildHasher, Hasher, RandomState};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use surefoot_link::{
-    Acknowledged, Clock, FRAME, FromTarget, Identity, Injection, Receiver, Rejected, Sender,
-    Sensors, Stages, Status, ToTarget, Torques,
+    Acknowledged, Clock, FromTarget, Identity, Injection, MOST_FRAME, Receiver, Rejected, RobotId,
+    Sender, Sensors, Stages, Status, ToTarget, Torques,
 };
 
 /// How long a target may take for an answer. An emulated one on a busy machine takes milliseconds.
@@ -43,6 +44,30 @@ pub enum LinkError {
         /// Its answer.
         answer: Acknowledged,
     },
+    /// The target has been built for another robot.
+    #[error(
+        "the scene's robot, {name}, is {wanted}; the target has been built for {found}: `{command}` builds the right one"
+    )]
+    AnotherRobot {
+        /// Name of the scene's robot.
+        name: String,
+        /// The scene's robot.
+        wanted: RobotId,
+        /// The target's.
+        found: RobotId,
+        /// What builds the images.
+        command: String,
+    },
+    /// Nobody has built the firmware for the robot.
+    #[error("no firmware for the robot {robot} at {}: `{command}` builds it", image.display())]
+    NoImage {
+        /// The scene's robot.
+        robot: String,
+        /// Where it would be.
+        image: PathBuf,
+        /// What builds it.
+        command: String,
+    },
     /// An answer to something else.
     #[error("the target has answered {order} with something else")]
     Unexpected {
@@ -51,18 +76,18 @@ pub enum LinkError {
     },
 }
 
-/// A target on a link.
-pub struct Target {
+/// A target on a link, of a robot with so many joints.
+pub struct Target<const JOINTS: usize> {
     transport: Box<dyn Transport>,
     sender: Sender,
-    receiver: Receiver<FromTarget>,
-    arrived: VecDeque<Result<FromTarget, Rejected>>,
+    receiver: Receiver<FromTarget<JOINTS>, MOST_FRAME>,
+    arrived: VecDeque<Result<FromTarget<JOINTS>, Rejected>>,
     identity: Identity,
     /// Where this side's clock began.
     begin: Instant,
 }
 
-impl Target {
+impl<const JOINTS: usize> Target<JOINTS> {
     /// Says hello, and waits for the answer.
     ///
     /// # Errors
@@ -75,6 +100,7 @@ impl Target {
             arrived: VecDeque::new(),
             // Replaced by the first answer.
             identity: Identity {
+                robot: RobotId { joints: 0, fingerprint: 0 },
                 counter: surefoot_link::Counter::Cycles,
                 per_second: 0,
                 resets: 0,
@@ -103,7 +129,7 @@ impl Target {
     ///
     /// # Errors
     /// [`LinkError::Refused`], or what is wrong with the link.
-    pub fn order(&mut self, name: &'static str, order: &ToTarget) -> Result<(), LinkError> {
+    pub fn order(&mut self, name: &'static str, order: &ToTarget<JOINTS>) -> Result<(), LinkError> {
         self.send(order)?;
         match self.answer()? {
             FromTarget::Acknowledged(Acknowledged::Done) => Ok(()),
@@ -116,13 +142,13 @@ impl Target {
     ///
     /// # Errors
     /// A [`LinkError`].
-    pub fn tick(&mut self, sensors: &Sensors) -> Result<Torques, LinkError> {
+    pub fn tick(&mut self, sensors: &Sensors<JOINTS>) -> Result<Torques<JOINTS>, LinkError> {
         self.send(&self.measurement(sensors))?;
         self.torques()
     }
 
     /// The message of a measurement that is taken now.
-    pub fn measurement(&self, sensors: &Sensors) -> ToTarget {
+    pub fn measurement(&self, sensors: &Sensors<JOINTS>) -> ToTarget<JOINTS> {
         // Goes round after 71 minutes.
         let taken_us = self.begin.elapsed().as_micros() as u32;
         ToTarget::Sensors { taken_us, sensors: *sensors }
@@ -132,7 +158,7 @@ impl Target {
     ///
     /// # Errors
     /// A [`LinkError`].
-    pub fn tick_raw(&mut self, bytes: &[u8]) -> Result<Torques, LinkError> {
+    pub fn tick_raw(&mut self, bytes: &[u8]) -> Result<Torques<JOINTS>, LinkError> {
         self.send_raw(bytes)?;
         self.torques()
     }
@@ -157,7 +183,7 @@ impl Target {
     ///
     /// # Errors
     /// A [`LinkError`]; the target refuses unless it is in standby.
-    pub fn profile(&mut self, sensors: &Sensors) -> Result<Stages, LinkError> {
+    pub fn profile(&mut self, sensors: &Sensors<JOINTS>) -> Result<Stages, LinkError> {
         self.send(&ToTarget::Profile(*sensors))?;
         match self.answer()? {
             FromTarget::Stages(stages) => Ok(stages),
@@ -179,13 +205,13 @@ impl Target {
     }
 
     /// The frame of a message, for those who want to spoil it.
-    pub fn frame(&mut self, message: &ToTarget) -> Vec<u8> {
-        let mut wire = [0; FRAME];
+    pub fn frame(&mut self, message: &ToTarget<JOINTS>) -> Vec<u8> {
+        let mut wire = [0; MOST_FRAME];
         // A test of the link makes sure that every message fits.
         self.sender.encode(message, &mut wire).unwrap_or_default().to_vec()
     }
 
-    fn torques(&mut self) -> Result<Torques, LinkError> {
+    fn torques(&mut self) -> Result<Torques<JOINTS>, LinkError> {
         match self.answer()? {
             FromTarget::Torques(torques) => Ok(torques),
             FromTarget::Acknowledged(answer) => Err(LinkError::Refused { order: "tick", answer }),
@@ -193,7 +219,7 @@ impl Target {
         }
     }
 
-    fn send(&mut self, message: &ToTarget) -> Result<(), LinkError> {
+    fn send(&mut self, message: &ToTarget<JOINTS>) -> Result<(), LinkError> {
         let frame = self.frame(message);
         self.send_raw(&frame)
     }
@@ -206,12 +232,15 @@ impl Target {
         self.transport.send(bytes)
     }
 
-    fn answer(&mut self) -> Result<FromTarget, LinkError> {
+    fn answer(&mut self) -> Result<FromTarget<JOINTS>, LinkError> {
         self.next(PATIENCE)?.map_err(LinkError::Rejected)
     }
 
     /// The next frame, good or bad.
-    fn next(&mut self, patience: Duration) -> Result<Result<FromTarget, Rejected>, LinkError> {
+    fn next(
+        &mut self,
+        patience: Duration,
+    ) -> Result<Result<FromTarget<JOINTS>, Rejected>, LinkError> {
         let begin = Instant::now();
         loop {
             if let Some(frame) = self.arrived.pop_front() {

@@ -1,0 +1,49 @@
+//! The robot that this image is for: its `robot.rs`, by name of the build script.
+
+/// More than firmware needs stands there, in the form of a program's output.
+#[allow(dead_code, missing_docs, clippy::all)]
+mod of_file {
+    include!(concat!(env!("OUT_DIR"), "/robot.rs"));
+    pub use described::firmware::*;
+}
+
+pub use of_file::{GAINS, LEGS, SOLES};
+use surefoot::balance::{Gains, LeggedRobot, Reference, SafetyLimits};
+use surefoot::spatial::{Quaternion, SymmetricMatrix3};
+use surefoot_link::{RobotId, frame_bytes};
+
+/// The robot, in flash.
+pub static ROBOT: LeggedRobot<f32, LEGS> = of_file::ROBOT;
+
+/// What its supervisor allows: settings may be tighter, and no wider.
+pub static LIMITS: SafetyLimits<f32, LEGS> = of_file::LIMITS;
+
+/// Joints of a leg.
+pub const LEG: usize = 6;
+
+/// Joints of the robot, and of its messages.
+pub const JOINTS: usize = LEG * LEGS;
+
+/// Bytes of the largest frame.
+pub const FRAME: usize = frame_bytes(JOINTS);
+
+/// What the other end knows it by.
+pub const ID: RobotId = RobotId::of(&of_file::ROBOT, &of_file::LIMITS);
+
+const _: () = assert!(
+    ID.fingerprint == of_file::FINGERPRINT,
+    "robot.rs is not as it was written: edit robot.toml, and let `surefoot import` write both"
+);
+const _: () = assert!(JOINTS <= u8::MAX as usize);
+
+/// Gains of a message or of the robot's file, by their diagonals.
+pub fn gains(diagonals: [[f32; 3]; 4]) -> Gains<f32> {
+    let [position, velocity, orientation, angular_velocity] =
+        diagonals.map(|[x, y, z]| SymmetricMatrix3::diagonal(x, y, z));
+    Gains { position, velocity, orientation, angular_velocity }
+}
+
+/// The pose to hold after a reset.
+pub fn reference() -> Reference<f32> {
+    Reference::at_rest(of_file::POSITION.into(), Quaternion::from_array(of_file::ORIENTATION))
+}

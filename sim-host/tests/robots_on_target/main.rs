@@ -1,0 +1,86 @@
+//! Robots of other projects on the emulated target: imported, built, and balanced by three commands, with the bits of
+//! the host. `cargo xtask test --only firmware` installs what that needs.
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A URDF of example-robot-data.
+fn example_robot(path: &str) -> PathBuf {
+    let folder = std::env::var_os("SUREFOOT_ROBOT_FILES");
+    let folder = folder.expect("`cargo xtask test --only firmware` sets SUREFOOT_ROBOT_FILES");
+    Path::new(&folder).join("cmeel.prefix/share/example-robot-data/robots").join(path)
+}
+
+fn text(output: &Output) -> String {
+    [&output.stderr, &output.stdout].map(|bytes| String::from_utf8_lossy(bytes)).concat()
+}
+
+fn surefoot(folder: &Path, arguments: &[&str]) -> Output {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_surefoot"));
+    program.args(arguments).current_dir(folder).output().expect("it starts")
+}
+
+/// What the program prints, which must succeed.
+fn said(folder: &Path, arguments: &[&str]) -> String {
+    let output = surefoot(folder, arguments);
+    assert!(output.status.success(), "{}", text(&output));
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+/// Built anew, whatever stands there.
+fn firmware(folder: &Path, robot: &str) {
+    let build = Command::new(env!("CARGO"))
+        .args(["xtask", "firmware", "--robot"])
+        .arg(folder.join(robot))
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+        .output()
+        .expect("cargo starts");
+    assert!(build.status.success(), "{}", text(&build));
+}
+
+/// It stands, and every number of its record is the host's.
+fn stands(name: &str, file: &str) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("robots-on-target");
+    std::fs::create_dir_all(&folder).expect("a folder below the target directory");
+    let file = example_robot(file);
+    said(&folder, &["import", file.to_str().expect("UTF-8"), "--out", name]);
+    firmware(&folder, &format!("{name}/robot.rs"));
+    let scene = format!("{name}/stand.toml");
+    let (host, target) = (format!("{name}-host"), format!("{name}-target"));
+    said(&folder, &["run", &scene, "--scalar", "f32", "--out", &host]);
+    let run = ["run", &scene, "--controller", "firmware", "--out", &target, "--json"];
+    let document: Value = serde_json::from_str(&said(&folder, &run)).expect("JSON");
+    println!("{name}: {} {}", document["outcome"], document["target"]);
+    assert_eq!(document["outcome"], "balanced");
+    let record = |of: &str| std::fs::read(folder.join(of).join("record.csv")).expect("written");
+    assert!(record(&host) == record(&target), "the record of the target is another one");
+    // The image of this robot is for no other.
+    let image = format!("target/firmware/{}/emulation.elf", image_name(&folder, name));
+    let image = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(image);
+    let image = image.to_str().expect("UTF-8");
+    let other = ["run", "--controller", "firmware", "--firmware", image, "--duration", "0.01"];
+    let output = surefoot(&folder, &other);
+    let said = text(&output);
+    assert!(!output.status.success(), "{said}");
+    assert!(said.contains("biped") && said.contains("`cargo xtask firmware`"), "{said}");
+}
+
+/// The robot's name as its robot.rs has it.
+fn image_name(folder: &Path, name: &str) -> String {
+    let source = std::fs::read_to_string(folder.join(name).join("robot.rs")).expect("written");
+    let (_, rest) = source.split_once("pub const NAME: &str = \"").expect("it has a name");
+    rest.split('"').next().expect("a string").to_owned()
+}
+
+#[test]
+#[ignore = "needs robot files and the target's compiler: `cargo xtask test --only firmware`"]
+fn g1_stands_on_the_target() {
+    stands("g1", "g1_description/urdf/g1_29dof_rev_1_0.urdf");
+}
+
+#[test]
+#[ignore = "needs robot files and the target's compiler: `cargo xtask test --only firmware`"]
+fn talos_stands_on_the_target() {
+    stands("talos", "talos_data/robots/talos_reduced.urdf");
+}
