@@ -13,7 +13,7 @@ pub struct ContactPatch<T> {
     /// Centre, from the foot's reference point, m. Zero for an edge and a point.
     pub(super) center: Vector3<T>,
     /// Half the length along x, m.
-    pub(super) half_x: T,
+    pub(in crate::balance) half_x: T,
     /// Half the length along y, m.
     pub(super) half_y: T,
 }
@@ -52,7 +52,7 @@ impl<T: Real> ContactPatch<T> {
 
     /// Whether moments about the sole's x, y, z are unknowns.
     #[inline(always)]
-    pub(super) fn moments(&self) -> [bool; 3] {
+    pub(in crate::balance) fn moments(&self) -> [bool; 3] {
         let (x, y) = (self.half_x > T::zero(), self.half_y > T::zero());
         [y, x, x || y]
     }
