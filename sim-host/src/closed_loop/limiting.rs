@@ -11,12 +11,12 @@ use surefoot::balance::{
 };
 
 /// Shares of friction and of the soles' lengths that the controller counts on.
-const FRICTION_SHARE: f64 = 0.8;
-const SOLE_SHARE: f64 = 0.92;
+pub(super) const FRICTION_SHARE: f64 = 0.8;
+pub(super) const SOLE_SHARE: f64 = 0.92;
 /// A foot that stands is pressed on with so much, N.
 const LEAST_FORCE: f64 = 5.0;
 /// Greatest force on a foot in weights of the robot.
-const MOST_WEIGHTS: f64 = 4.0;
+pub(super) const MOST_WEIGHTS: f64 = 4.0;
 
 /// Limits of a scene, what the last tick leaves for the next, and what became of the ticks so far.
 pub(super) struct Limiting<T, const LEGS: usize> {
@@ -56,6 +56,38 @@ pub struct WorstLimit {
     pub time_s: f64,
     /// By how much the objective would fall per 100 % of a wider limit.
     pub relief: f64,
+}
+
+impl LimitTally {
+    /// Another tick.
+    pub(super) fn count(&mut self, is_limited: bool, status: surefoot::qp::Status) {
+        self.ticks += 1;
+        self.active += u64::from(is_limited);
+        self.active_share = self.active as f64 / self.ticks as f64;
+        self.unfinished += u64::from(matches!(
+            status,
+            surefoot::qp::Status::BudgetSpent | surefoot::qp::Status::TooManyRows
+        ));
+    }
+
+    /// The limit that cost most at a tick.
+    pub(super) fn bound(&mut self, limit: WorstLimit) {
+        if self.worst.as_ref().is_none_or(|worst| worst.relief < limit.relief) {
+            self.worst = Some(limit);
+        }
+    }
+}
+
+/// A limit's word, and the joint that it is of.
+pub(super) fn named(limit: ContactLimit) -> (&'static str, Option<u8>) {
+    match limit {
+        ContactLimit::Lift => ("lift", None),
+        ContactLimit::Press => ("press", None),
+        ContactLimit::Slip => ("slip", None),
+        ContactLimit::Tip => ("tip", None),
+        ContactLimit::Twist => ("twist", None),
+        ContactLimit::Torque(joint) => ("torque", Some(joint)),
+    }
 }
 
 impl<T: Real, const LEGS: usize> Limiting<T, LEGS> {
@@ -107,29 +139,12 @@ impl<T: Real, const LEGS: usize> Limiting<T, LEGS> {
     }
 
     fn count(&mut self, report: &LimitReport<T, LEGS>) {
-        let tally = &mut self.tally;
-        tally.ticks += 1;
-        tally.active += u64::from(report.is_limited());
-        tally.active_share = tally.active as f64 / tally.ticks as f64;
-        tally.unfinished += u64::from(matches!(
-            report.status,
-            surefoot::qp::Status::BudgetSpent | surefoot::qp::Status::TooManyRows
-        ));
+        self.tally.count(report.is_limited(), report.status);
         let Some(reason) = report.worst else { return };
-        let relief = reason.relief.to_f64();
-        if tally.worst.as_ref().is_some_and(|worst| worst.relief >= relief) {
-            return;
-        }
-        let (limit, joint) = match reason.limit {
-            ContactLimit::Lift => ("lift", None),
-            ContactLimit::Press => ("press", None),
-            ContactLimit::Slip => ("slip", None),
-            ContactLimit::Tip => ("tip", None),
-            ContactLimit::Twist => ("twist", None),
-            ContactLimit::Torque(joint) => ("torque", Some(joint)),
-        };
         let leg = self.robot.legs.get(reason.foot).cloned().unwrap_or_default();
-        tally.worst = Some(WorstLimit { limit, leg, joint, time_s: self.time_s, relief });
+        let (limit, joint) = named(reason.limit);
+        let relief = reason.relief.to_f64();
+        self.tally.bound(WorstLimit { limit, leg, joint, time_s: self.time_s, relief });
     }
 
     /// What became of the ticks so far.
@@ -150,7 +165,7 @@ impl<T: Real, const LEGS: usize> Limiting<T, LEGS> {
 }
 
 /// What a floor can be counted on to hold.
-fn friction(floor: &Floor) -> f64 {
+pub(super) fn friction(floor: &Floor) -> f64 {
     floor.static_friction.min(floor.dynamic_friction)
 }
 

@@ -15,6 +15,7 @@ mod plant;
 mod run;
 mod sensing;
 mod supervised;
+mod whole_body;
 
 pub use acting::{CutTorques, Motors};
 pub use approximate::{ApproximateController, Approximation};

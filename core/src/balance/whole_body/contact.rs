@@ -120,7 +120,7 @@ impl<T: Real> Contact<T> {
 
     /// `−J⁺ J_b` of (1) by joint: what multiplies X.
     #[inline(always)]
-    pub fn from_base(&self) -> [Wrench<T>; MOST_LEG_JOINTS] {
+    pub fn per_base(&self) -> [Wrench<T>; MOST_LEG_JOINTS] {
         self.inverse.map(|row| -self.on_base(Wrench::from_array(row)))
     }
 

@@ -42,21 +42,21 @@ impl<T: Real, const NV: usize> Reduced<T, NV> {
         screws: [Twist<T>; NV],
     ) -> Option<Self> {
         let mut rows = [Wrench::zero(); NV];
-        let from_base = contacts.each_ref().map(|contact| contact.as_ref().map(Contact::from_base));
+        let per_base = contacts.each_ref().map(|contact| contact.as_ref().map(Contact::per_base));
         let is_moved =
             |velocity: usize| velocity < 6 || matches!(robot.joints.get(velocity), Some(Some(_)));
         for (velocity, (row, masses)) in rows.iter_mut().zip(mass_matrix).enumerate() {
-            let Some([a, b, c, d, e, f]) = masses.first_chunk().copied() else { return None };
+            let [a, b, c, d, e, f] = masses.first_chunk().copied()?;
             if !is_moved(velocity) {
                 continue;
             }
             *row = Wrench::from_array([a, b, c, d, e, f]);
-            for (contact, from_base) in contacts.iter().flatten().zip(from_base.iter().flatten()) {
-                for (joint, from_base) in contact.joints.iter().zip(from_base).take(contact.count) {
+            for (contact, per_base) in contacts.iter().flatten().zip(per_base.iter().flatten()) {
+                for (joint, per_base) in contact.joints.iter().zip(per_base).take(contact.count) {
                     let mass = masses.get(*joint).copied().unwrap_or(T::zero());
                     // Joints of different limbs have none in common.
                     if mass != T::zero() {
-                        *row += *from_base * mass;
+                        *row += *per_base * mass;
                     }
                 }
             }

@@ -160,7 +160,7 @@ pub fn whole_body_tick<
     for (number, contact) in legs.iter().enumerate() {
         let Some(contact) = contact else { continue };
         let mut moved = contact.correction();
-        for ((moved, row), joint) in moved.iter_mut().zip(contact.from_base()).zip(contact.joints) {
+        for ((moved, row), joint) in moved.iter_mut().zip(contact.per_base()).zip(contact.joints) {
             let more = x.power(row);
             *moved += more;
             if let Some(to) = command.accelerations.get_mut(joint).filter(|_| more != T::zero()) {
