@@ -10,7 +10,7 @@ use surefoot::balance::{
 use surefoot::spatial::{Pose, Quaternion};
 
 /// Points span a length from here on, m.
-const LEAST_LENGTH: f64 = 5e-3;
+pub(super) const LEAST_LENGTH: f64 = 8e-3;
 /// Joints that a sole and an edge need.
 const SOLE: usize = 6;
 const EDGE: usize = 5;

@@ -81,7 +81,7 @@ impl Robot {
         let tree = tree.map_err(NoLeggedRobot::Tree)?;
         let feet = match tree.is_six_jointed() {
             true => (0..file.feet.len()).map(|leg| foot_of_leg(file, leg)).collect(),
-            false => file.feet.iter().map(|own| foot(file, own)).collect::<Vec<_>>(),
+            false => file.feet.iter().map(|own| as_one_point(foot(file, own))).collect::<Vec<_>>(),
         };
         let joints: Vec<String> =
             file.links.iter().skip(1).map(|link| link.joint.name.clone()).collect();
@@ -195,6 +195,20 @@ fn foot(file: &FileRobot, foot: &FileFoot) -> Foot {
         points: foot.points.iter().enumerate().map(point).collect(),
         ends: [end(false), end(true)],
     }
+}
+
+/// A foot whose points lie so near each other that the controller takes it for a point: it is one to the floor as well.
+fn as_one_point(mut foot: Foot) -> Foot {
+    let middle = foot.points.iter().fold(Vector3::zeros(), |sum, point| sum + point.at)
+        / foot.points.len() as f64;
+    let is_small =
+        foot.points.iter().all(|point| 2.0 * (point.at - middle).norm() < contacts::LEAST_LENGTH);
+    if is_small && let Some(first) = foot.points.first_mut() {
+        first.at = middle;
+        foot.points.truncate(1);
+        foot.ends = [Vec::new(), Vec::new()];
+    }
+    foot
 }
 
 /// Links as bars from joint to joint, feet as boxes around their points and their joint, the central body as the

@@ -29,6 +29,8 @@ pub(super) struct Contact<T> {
     pub count: usize,
     /// `J⁺` by joint.
     inverse: ByJoint<T>,
+    /// `−J⁺ J_b` of (1) by joint: what multiplies X.
+    pub per_base: [Wrench<T>; MOST_LEG_JOINTS],
     /// `J` by joint.
     columns: ByJoint<T>,
     /// `a − b`
@@ -94,21 +96,28 @@ impl<T: Real> Contact<T> {
             let [x, y, z, a, b, c] = *column;
             *scaled = [x * per_reach, y * per_reach, z * per_reach, a, b, c];
         }
-        let found = leg_inverse(&scaled, &directions, damping)?;
+        let found = leg_inverse(&scaled, leg.count, &directions, damping)?;
         let inverse = found
             .inverse
             .map(|[x, y, z, a, b, c]| [x * per_reach, y * per_reach, z * per_reach, a, b, c]);
-        Some(Self {
+        let mut contact = Self {
             rotation,
             position,
             joints: leg.joints,
             count: leg.count,
             inverse,
+            per_base: [Wrench::zero(); MOST_LEG_JOINTS],
             columns,
             asked,
             directions,
             damping: found.damping,
-        })
+        };
+        for (inverse, row) in contact.inverse.iter().zip(&mut contact.per_base).take(leg.count) {
+            let w = Wrench::from_array(*inverse);
+            let w = Wrench { force: rotation * w.force, torque: rotation * w.torque };
+            *row = -w.shifted(position);
+        }
+        Some(contact)
     }
 
     /// `J⁺ (a − b)` of (1) by joint.
@@ -116,12 +125,6 @@ impl<T: Real> Contact<T> {
     pub fn correction(&self) -> [T; MOST_LEG_JOINTS] {
         self.inverse
             .map(|row| row.iter().zip(&self.asked).fold(T::zero(), |sum, (x, a)| sum + *x * *a))
-    }
-
-    /// `−J⁺ J_b` of (1) by joint: what multiplies X.
-    #[inline(always)]
-    pub fn per_base(&self) -> [Wrench<T>; MOST_LEG_JOINTS] {
-        self.inverse.map(|row| -self.on_base(Wrench::from_array(row)))
     }
 
     /// The wrench (sole axes, about p) of the ground that would hold the leg against the torques `t` of
@@ -155,13 +158,6 @@ impl<T: Real> Contact<T> {
             }
         }
         Twist::from_array(sum)
-    }
-
-    /// A wrench in sole axes about p, in frame 1 about its origin.
-    #[inline(always)]
-    fn on_base(&self, w: Wrench<T>) -> Wrench<T> {
-        Wrench { force: self.rotation * w.force, torque: self.rotation * w.torque }
-            .shifted(self.position)
     }
 }
 

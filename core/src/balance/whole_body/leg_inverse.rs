@@ -30,14 +30,16 @@ pub(super) struct LegInverse<T> {
     pub damping: T,
 }
 
-/// (1) for the columns of `J`, those of joints that do not exist zero; `None` for numbers that are not
+/// (1) for the first `count` columns of `J`; the rows of others are zero. `None` for numbers that are not
 /// finite.
 #[inline(always)]
 pub(super) fn leg_inverse<T: Real>(
     columns: &ByJoint<T>,
+    count: usize,
     directions: &[bool; DIRECTIONS],
     least: T,
 ) -> Option<LegInverse<T>> {
+    let columns = columns.get(..count)?;
     let (zero, one) = (T::zero(), T::one());
     let mut square = [[zero; DIRECTIONS]; DIRECTIONS];
     for column in columns {
@@ -56,7 +58,7 @@ pub(super) fn leg_inverse<T: Real>(
     let from = least * least * T::of(4.0);
     let mut d = zero;
     if let Some(factors) = Ldl::new(&square) {
-        let mut inverse = columns.map(|column| factors.solve(&column));
+        let mut inverse = solved(&factors, columns);
         let squares = inverse.as_flattened().iter().fold(zero, |sum, x| sum + *x * *x);
         // Where J is singular to the last bit, its inverse does not show it, but a pivot does.
         if squares > zero && squares.is_finite() {
@@ -74,7 +76,7 @@ pub(super) fn leg_inverse<T: Real>(
 #[cold]
 #[inline(never)]
 fn damped<T: Real>(
-    columns: &ByJoint<T>,
+    columns: &[[T; DIRECTIONS]],
     mut square: [[T; DIRECTIONS]; DIRECTIONS],
     directions: &[bool; DIRECTIONS],
     from: T,
@@ -88,12 +90,22 @@ fn damped<T: Real>(
         }
     }
     let factors = Ldl::new(&square)?;
-    Some(LegInverse { inverse: columns.map(|column| factors.solve(&column)), damping })
+    Some(LegInverse { inverse: solved(&factors, columns), damping })
+}
+
+/// `(J Jᵀ)⁻¹ J`, by joint.
+#[inline(always)]
+fn solved<T: Real>(factors: &Ldl<T, DIRECTIONS>, columns: &[[T; DIRECTIONS]]) -> ByJoint<T> {
+    let mut inverse = [[T::zero(); DIRECTIONS]; MOST_LEG_JOINTS];
+    for (row, column) in inverse.iter_mut().zip(columns) {
+        *row = factors.solve(column);
+    }
+    inverse
 }
 
 /// `J⁺ ← J⁺ + J⁺ (1 − J J⁺)`
 #[inline(always)]
-fn refine<T: Real>(inverse: &mut ByJoint<T>, columns: &ByJoint<T>) {
+fn refine<T: Real>(inverse: &mut ByJoint<T>, columns: &[[T; DIRECTIONS]]) {
     let mut left = [[T::zero(); DIRECTIONS]; DIRECTIONS];
     for (i, row) in left.iter_mut().enumerate() {
         row[i] = T::one();
@@ -105,7 +117,7 @@ fn refine<T: Real>(inverse: &mut ByJoint<T>, columns: &ByJoint<T>) {
             }
         }
     }
-    for row in inverse {
+    for row in inverse.iter_mut().take(columns.len()) {
         let mut more = [T::zero(); DIRECTIONS];
         for (x, left) in row.iter().zip(&left) {
             for (more, left) in more.iter_mut().zip(left) {

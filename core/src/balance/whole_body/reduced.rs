@@ -42,7 +42,6 @@ impl<T: Real, const NV: usize> Reduced<T, NV> {
         screws: [Twist<T>; NV],
     ) -> Option<Self> {
         let mut rows = [Wrench::zero(); NV];
-        let per_base = contacts.each_ref().map(|contact| contact.as_ref().map(Contact::per_base));
         let is_moved =
             |velocity: usize| velocity < 6 || matches!(robot.joints.get(velocity), Some(Some(_)));
         for (velocity, (row, masses)) in rows.iter_mut().zip(mass_matrix).enumerate() {
@@ -51,8 +50,9 @@ impl<T: Real, const NV: usize> Reduced<T, NV> {
                 continue;
             }
             *row = Wrench::from_array([a, b, c, d, e, f]);
-            for (contact, per_base) in contacts.iter().flatten().zip(per_base.iter().flatten()) {
-                for (joint, per_base) in contact.joints.iter().zip(per_base).take(contact.count) {
+            for contact in contacts.iter().flatten() {
+                let joints = contact.joints.iter().zip(&contact.per_base);
+                for (joint, per_base) in joints.take(contact.count) {
                     let mass = masses.get(*joint).copied().unwrap_or(T::zero());
                     // Joints of different limbs have none in common.
                     if mass != T::zero() {

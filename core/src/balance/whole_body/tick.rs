@@ -131,13 +131,12 @@ pub fn whole_body_tick<
             .fold(desired_wrench, |rest, (w, p)| rest - w.shifted(*p));
         let weights = &settings.weights;
         let shared = ContactProgram::new(&feet, weights, &central.rotation, rest);
-        let least_norm = shared.ok_or(Fault::Overflow)?.least_norm();
+        let shared = shared.ok_or(Fault::Overflow)?;
         let mut wrenches = carried;
-        for (w, more) in wrenches.iter_mut().zip(least_norm) {
+        for (w, more) in wrenches.iter_mut().zip(shared.least_norm()) {
             *w += more;
         }
-        let contacts = ContactProgram::new(&feet, weights, &central.rotation, desired_wrench);
-        let contacts = contacts.ok_or(Fault::Overflow)?.around(wrenches);
+        let contacts = shared.around(wrenches);
         let program = WholeBodyProgram {
             contacts,
             positions: &positions,
@@ -160,7 +159,7 @@ pub fn whole_body_tick<
     for (number, contact) in legs.iter().enumerate() {
         let Some(contact) = contact else { continue };
         let mut moved = contact.correction();
-        for ((moved, row), joint) in moved.iter_mut().zip(contact.per_base()).zip(contact.joints) {
+        for ((moved, row), joint) in moved.iter_mut().zip(contact.per_base).zip(contact.joints) {
             let more = x.power(row);
             *moved += more;
             if let Some(to) = command.accelerations.get_mut(joint).filter(|_| more != T::zero()) {
