@@ -2,6 +2,7 @@
 
 pub mod chains;
 pub mod contact_problems;
+pub mod legged_trees;
 pub mod motions;
 pub mod quadruped;
 pub mod random_trees;

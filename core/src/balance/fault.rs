@@ -16,6 +16,10 @@ pub enum Input {
     JointRates(usize),
     /// The reference trajectory.
     Reference,
+    /// Coordinate number, of a tree.
+    Coordinate(usize),
+    /// Velocity number, of a tree.
+    Rate(usize),
 }
 
 /// What a foot cannot do.
@@ -59,6 +63,8 @@ pub enum Fault {
     },
     /// A torque came out NaN or infinite: an input was finite, but too large.
     Overflow,
+    /// No acceleration of the central body follows from wrenches on the feet.
+    NotHeld,
 }
 
 impl core::fmt::Display for Input {
@@ -70,6 +76,8 @@ impl core::fmt::Display for Input {
             Self::JointAngles(leg) => write!(f, "a joint angle of leg {leg}"),
             Self::JointRates(leg) => write!(f, "a joint rate of leg {leg}"),
             Self::Reference => f.write_str("the reference"),
+            Self::Coordinate(k) => write!(f, "coordinate {k}"),
+            Self::Rate(k) => write!(f, "velocity {k}"),
         }
     }
 }
@@ -91,6 +99,7 @@ impl core::fmt::Display for Fault {
                 };
                 write!(f, "the foot of leg {leg} would have to {what}")
             }
+            Self::NotHeld => f.write_str("the feet cannot hold the central body"),
             Self::Overflow => f.write_str("a torque is not finite: some input is too large"),
         }
     }

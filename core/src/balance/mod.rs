@@ -27,9 +27,11 @@ mod leg_jacobian;
 mod leg_kinematics;
 mod limited;
 mod robot;
+mod square;
 mod state;
 mod supervisor;
 mod tick;
+mod whole_body;
 mod workspace_dynamics;
 mod wrench_distribution;
 
@@ -55,5 +57,10 @@ pub use supervisor::{
     StopReason, Supervised, Supervisor, SupervisorMemory, Thresholds,
 };
 pub use tick::{Command, tick};
+pub use whole_body::{
+    MOST_JOINTS, MOST_LEG_JOINTS, WholeBody, WholeBodyCommand, WholeBodyController, WholeBodyFoot,
+    WholeBodyLimit, WholeBodyMemory, WholeBodyReport, WholeBodyRobotFault, WholeBodySettings,
+    WholeBodyState, whole_body_tick,
+};
 pub use workspace_dynamics::{WorkspaceDynamics, big_base, fixed_foot_dynamics, fixed_foot_wrench};
 pub use wrench_distribution::{FootWrenches, wrench_distribution};

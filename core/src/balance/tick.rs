@@ -184,13 +184,19 @@ pub(super) fn check_finite<T: Real, const LEGS: usize>(
         check(angles.iter().all(|x| x.is_finite()), Input::JointAngles(leg))?;
         check(rates.iter().all(|x| x.is_finite()), Input::JointRates(leg))?;
     }
-    check(
-        finite(&reference.position)
-            && finite(&reference.velocity)
-            && finite(&reference.acceleration)
-            && finite_quaternion(&reference.orientation)
-            && finite(&reference.angular_velocity)
-            && finite(&reference.angular_acceleration),
-        Input::Reference,
-    )
+    check_reference(reference)
+}
+
+/// The reference's part of it.
+#[inline(always)]
+pub(super) fn check_reference<T: Real>(reference: &Reference<T>) -> Result<(), Fault> {
+    let finite = |v: &Vector3<T>| v.x.is_finite() && v.y.is_finite() && v.z.is_finite();
+    let q = &reference.orientation;
+    let good = finite(&reference.position)
+        && finite(&reference.velocity)
+        && finite(&reference.acceleration)
+        && (q.s.is_finite() && finite(&q.v))
+        && finite(&reference.angular_velocity)
+        && finite(&reference.angular_acceleration);
+    if good { Ok(()) } else { Err(Fault::NotFinite(Input::Reference)) }
 }

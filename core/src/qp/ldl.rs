@@ -69,6 +69,12 @@ impl<T: Real, const N: usize> Ldl<T, N> {
         pivot > T::zero() && pivot.is_finite()
     }
 
+    /// The least of D, which is not less than the least eigenvalue.
+    #[inline(always)]
+    pub fn least_pivot(&self) -> T {
+        T::one() / self.inverse_pivots.iter().fold(T::zero(), |most, x| most.max(*x))
+    }
+
     /// `M⁻¹ b`.
     #[inline(always)]
     pub fn solve(&self, b: &[T; N]) -> [T; N] {

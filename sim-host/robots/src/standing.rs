@@ -1,11 +1,11 @@
-//! Feet that nobody has named: the lowest links that hang from the root by six revolute joints.
+//! Feet that nobody has named: the lowest links that hang from the root by joints enough for a leg.
 
 use crate::description::{DescribedJoint, DescribedKind, Description};
 use crate::feet::sole;
 use nalgebra::Isometry3;
 
-/// Joints of a leg.
-const LEG: usize = 6;
+/// Joints of a leg at least: as many as a point has directions.
+const LEG: usize = 3;
 /// Soles that lie higher above the lowest than this part of the robot's height are hands.
 const HANDS: f64 = 0.1;
 
@@ -29,7 +29,10 @@ pub(crate) fn feet(description: &Description, root: usize) -> Vec<String> {
         path(link).iter().rev().fold(Isometry3::identity(), |pose, joint| pose * joint.origin)
     };
     let is_moving = |joint: &&DescribedJoint| joint.kind != DescribedKind::Fixed;
-    let turns = |kind| matches!(kind, DescribedKind::Revolute | DescribedKind::Continuous);
+    let moves = |kind| {
+        use DescribedKind::{Continuous, Prismatic, Revolute};
+        matches!(kind, Revolute | Continuous | Prismatic)
+    };
     let carries_more = |last: &DescribedJoint| {
         let mut moving = description.joints.iter().filter(|joint| is_moving(joint));
         moving.any(|joint| path(joint.parent).iter().any(|inboard| inboard.name == last.name))
@@ -42,7 +45,7 @@ pub(crate) fn feet(description: &Description, root: usize) -> Vec<String> {
         heights.push(pose.translation.z);
         let joints = path(k);
         let moving: Vec<&DescribedJoint> = joints.into_iter().filter(is_moving).collect();
-        let is_leg = moving.len() == LEG && moving.iter().all(|joint| turns(joint.kind));
+        let is_leg = moving.len() >= LEG && moving.iter().all(|joint| moves(joint.kind));
         let (true, Some(last)) = (is_leg && !link.shapes.is_empty(), moving.first()) else {
             continue;
         };

@@ -3,7 +3,7 @@
 use super::marks::marks;
 use super::{ChartError, Panel, Series, TimeSeries};
 use crate::record::{Event, Sample};
-use crate::robot::{LEG, Robot};
+use crate::robot::Robot;
 
 /// A figure that can be drawn of any run.
 #[derive(Clone, Copy, Debug)]
@@ -85,7 +85,7 @@ fn about(
     range.map(|i| series(samples, name(i), move |sample| of(sample, i))).collect()
 }
 
-/// One panel a leg, with a curve for each of its joints.
+/// One panel a leg, with a curve for each of its joints, and one for all other joints.
 fn legs(
     robot: &Robot,
     samples: &[Sample],
@@ -93,14 +93,22 @@ fn legs(
     of: fn(&Sample, usize) -> f64,
 ) -> Vec<Panel> {
     let of_leg = |(leg, name): (usize, &String)| {
-        let joints = robot.joints.iter().enumerate().skip(LEG * leg).take(LEG);
-        let curves = joints.map(|(i, joint)| {
+        let own = robot.leg_joints.get(leg).map_or(&[][..], Vec::as_slice);
+        let curves = own.iter().map(|i| {
+            let (i, joint) = (*i, robot.joints[*i].as_str());
             let joint = joint.trim_start_matches("left ").trim_start_matches("right ");
             series(samples, joint, move |sample| of(sample, i))
         });
         panel(&format!("{}, {what}", capitalised(name)), unit, curves.collect())
     };
-    robot.legs.iter().enumerate().map(of_leg).collect()
+    let mut panels: Vec<Panel> = robot.legs.iter().enumerate().map(of_leg).collect();
+    let others = (0..robot.joint_count()).filter(|i| robot.leg_of(i + 1).is_none());
+    let others: Vec<_> =
+        others.map(|i| series(samples, &robot.joints[i], move |sample| of(sample, i))).collect();
+    if !others.is_empty() {
+        panels.push(panel(&format!("Other joints, {what}"), unit, others));
+    }
+    panels
 }
 
 /// With a capital at its beginning.

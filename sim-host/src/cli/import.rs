@@ -116,7 +116,7 @@ pub(super) fn run(options: &Options) -> ExitCode {
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from(options.robot.file_stem().unwrap_or("robot".as_ref())));
-    let standing = standing(&options.robot, &how, &imported.locked);
+    let standing = standing(&imported.robot);
     let written = write_all(&folder, &robot_toml(&imported.robot), source, standing.as_ref().ok());
     let paths = match written {
         Ok(paths) => paths,
@@ -129,19 +129,14 @@ pub(super) fn run(options: &Options) -> ExitCode {
     say(&said, ExitCode::SUCCESS)
 }
 
-/// A scene in which the robot stands on its legs, everything else locked; or why no such scene exists.
-fn standing(path: &Path, how: &ImportOptions, gone: &[(String, f64)]) -> Result<String, String> {
-    let legs_only = ImportOptions { legs_only: true, ..how.clone() };
-    let imported = import(path, &legs_only).map_err(|error| error.to_string())?;
-    if imported.robot.feet.is_empty() {
+/// A scene in which the robot stands on its legs; or why no such scene exists.
+fn standing(robot: &Robot) -> Result<String, String> {
+    if robot.feet.is_empty() {
         return Err("it has no feet that are found (--feet names them)".into());
     }
-    let robot = SceneRobot::of_file(&imported.robot)
+    let robot = SceneRobot::of_file(robot)
         .map_err(|error| format!("the balance controller takes {error}"))?;
-    let is_there = |(name, _): &&(String, f64)| gone.iter().all(|(other, _)| other != name);
-    let locked: Vec<_> = imported.locked.iter().filter(is_there).cloned().collect();
-    stand_scene(&robot, "robot.toml", &locked)
-        .ok_or_else(|| "its legs find no angles to stand on".into())
+    stand_scene(&robot, "robot.toml").ok_or_else(|| "its legs find no angles to stand on".into())
 }
 
 /// Writes the files, and says which. What firmware takes is read from the others, as a run reads them.
@@ -246,7 +241,7 @@ fn summary(imported: &Imported, paths: &[String], no_scene: Option<&String>) -> 
     }
     match legs(robot) {
         Some(legs) => line(format!("the balance controller takes it: {legs} legs of 6 joints")),
-        None => line("no LEGGED for the balance controller, which takes a floating body on legs of 6 revolute joints and nothing else (see --legs-only)".into()),
+        None => line("no LEGGED for the recursive controller, which takes a floating body on legs of 6 revolute joints and nothing else (see --legs-only)".into()),
     }
     if !locked.is_empty() {
         let names: Vec<String> = locked.iter().map(|(name, at)| format!("{name}={at}")).collect();
@@ -259,9 +254,7 @@ fn summary(imported: &Imported, paths: &[String], no_scene: Option<&String>) -> 
     }
     match no_scene {
         Some(reason) => line(format!("no stand.toml: {reason}")),
-        None => line(
-            "stand.toml stands on its legs; joints that no foot hangs from are locked there, under [robot.lock]".into(),
-        ),
+        None => line("stand.toml stands on its legs".into()),
     }
     line(format!("wrote {}", paths.join(" and ")));
     out

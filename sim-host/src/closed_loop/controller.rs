@@ -4,6 +4,7 @@ use super::approximate::{ApproximateController, Approximation};
 use super::firmware::LinkError;
 use super::limiting::{LimitTally, Limiting};
 use super::supervised::SupervisedController;
+use super::whole_body::{SupervisedWholeBody, WholeBodyHost};
 use crate::plant::PlantState;
 use crate::record::SupervisorMemory;
 use crate::robot::{SharedRobot, by_leg, with_tree};
@@ -158,6 +159,18 @@ pub fn controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
                 Box::new(SupervisedController::new(HostController::new(model, scene), limits, scene))
             }
         }
+    }, tree, ROWS => {
+        let limits = robot.limits.in_rows::<ROWS>().expect("a robot has limits for its joints");
+        match scalar {
+            Scalar::F32 => Box::new(SupervisedWholeBody::new(
+                WholeBodyHost::new(tree.to_f32(), scene),
+                limits.to_f32(),
+                scene,
+            )),
+            Scalar::F64 => {
+                Box::new(SupervisedWholeBody::new(WholeBodyHost::new(*tree, scene), limits, scene))
+            }
+        }
     })
 }
 
@@ -170,10 +183,16 @@ pub fn bare_controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
             Scalar::F32 => Box::new(HostController::new(model.to_f32(), scene)),
             Scalar::F64 => Box::new(HostController::new(model, scene)),
         }
+    }, tree, _ROWS => match scalar {
+        Scalar::F32 => Box::new(WholeBodyHost::new(tree.to_f32(), scene)),
+        Scalar::F64 => Box::new(WholeBodyHost::new(*tree, scene)),
     })
 }
 
 /// The same with something left out; feet are held exactly, whatever the scene says.
+///
+/// # Panics
+/// For a robot with other joints than those of legs of six.
 pub fn approximate_controller(
     scene: &Scene,
     scalar: Scalar,
@@ -192,7 +211,7 @@ pub fn approximate_controller(
                 approximation,
             )),
         }
-    })
+    }, _tree, _ROWS => panic!("{approximation:?} is of robots on legs of six joints"))
 }
 
 /// The controller's model of a scene's robot.

@@ -12,12 +12,12 @@ use surefoot::balance::{
 use surefoot_link::TickLimits;
 
 /// Shares of friction and of the soles' lengths that the controller counts on.
-const FRICTION_SHARE: f64 = 0.8;
-const SOLE_SHARE: f64 = 0.92;
+pub(super) const FRICTION_SHARE: f64 = 0.8;
+pub(super) const SOLE_SHARE: f64 = 0.92;
 /// A foot that stands is pressed on with so much, N.
 const LEAST_FORCE: f64 = 5.0;
 /// Greatest force on a foot in weights of the robot.
-const MOST_WEIGHTS: f64 = 4.0;
+pub(super) const MOST_WEIGHTS: f64 = 4.0;
 
 /// Limits of a scene, what the last tick leaves for the next, and what became of the ticks so far.
 pub(super) struct Limiting<T, const LEGS: usize> {
@@ -57,6 +57,49 @@ pub struct WorstLimit {
     pub time_s: f64,
     /// By how much the objective would fall per 100 % of a wider limit.
     pub relief: f64,
+}
+
+impl LimitTally {
+    /// Another tick.
+    pub(super) fn count(&mut self, is_limited: bool, is_unfinished: bool) {
+        self.ticks += 1;
+        self.active += u64::from(is_limited);
+        self.active_share = self.active as f64 / self.ticks as f64;
+        self.unfinished += u64::from(is_unfinished);
+    }
+
+    /// Another tick of a robot on legs of six joints.
+    pub(super) fn count_tick<T: Real>(
+        &mut self,
+        robot: &Robot,
+        time_s: f64,
+        tick: &TickLimits<T>,
+    ) {
+        self.count(tick.is_active, tick.is_unfinished);
+        let Some(reason) = tick.worst else { return };
+        let leg = robot.legs.get(reason.foot).cloned().unwrap_or_default();
+        let (limit, joint) = named(reason.limit);
+        self.bound(WorstLimit { limit, leg, joint, time_s, relief: reason.relief.to_f64() });
+    }
+
+    /// The limit that cost most at a tick.
+    pub(super) fn bound(&mut self, limit: WorstLimit) {
+        if self.worst.as_ref().is_none_or(|worst| worst.relief < limit.relief) {
+            self.worst = Some(limit);
+        }
+    }
+}
+
+/// A limit's word, and the joint that it is of.
+pub(super) fn named(limit: ContactLimit) -> (&'static str, Option<u8>) {
+    match limit {
+        ContactLimit::Lift => ("lift", None),
+        ContactLimit::Press => ("press", None),
+        ContactLimit::Slip => ("slip", None),
+        ContactLimit::Tip => ("tip", None),
+        ContactLimit::Twist => ("twist", None),
+        ContactLimit::Torque(joint) => ("torque", Some(joint)),
+    }
 }
 
 /// What a scene's floor and motors give.
@@ -131,7 +174,7 @@ impl<T: Real, const LEGS: usize> Limiting<T, LEGS> {
     ) -> Result<Command<T, LEGS>, Fault> {
         let Self { limits, memory, contacts, .. } = self;
         let answer = limited_tick(controller, limits, state, reference, contacts, memory)?;
-        self.tally.count(&self.robot, self.time_s, &TickLimits::from(&answer.limits));
+        self.tally.count_tick(&self.robot, self.time_s, &TickLimits::from(&answer.limits));
         Ok(answer.command)
     }
 
@@ -152,33 +195,8 @@ impl<T: Real, const LEGS: usize> Limiting<T, LEGS> {
     }
 }
 
-impl LimitTally {
-    /// One more tick.
-    pub(super) fn count<T: Real>(&mut self, robot: &Robot, time_s: f64, tick: &TickLimits<T>) {
-        self.ticks += 1;
-        self.active += u64::from(tick.is_active);
-        self.active_share = self.active as f64 / self.ticks as f64;
-        self.unfinished += u64::from(tick.is_unfinished);
-        let Some(reason) = tick.worst else { return };
-        let relief = reason.relief.to_f64();
-        if self.worst.as_ref().is_some_and(|worst| worst.relief >= relief) {
-            return;
-        }
-        let (limit, joint) = match reason.limit {
-            ContactLimit::Lift => ("lift", None),
-            ContactLimit::Press => ("press", None),
-            ContactLimit::Slip => ("slip", None),
-            ContactLimit::Tip => ("tip", None),
-            ContactLimit::Twist => ("twist", None),
-            ContactLimit::Torque(joint) => ("torque", Some(joint)),
-        };
-        let leg = robot.legs.get(reason.foot).cloned().unwrap_or_default();
-        self.worst = Some(WorstLimit { limit, leg, joint, time_s, relief });
-    }
-}
-
 /// What a floor can be counted on to hold.
-fn friction(floor: &Floor) -> f64 {
+pub(super) fn friction(floor: &Floor) -> f64 {
     floor.static_friction.min(floor.dynamic_friction)
 }
 

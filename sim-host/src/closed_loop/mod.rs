@@ -18,6 +18,7 @@ mod plant;
 mod run;
 mod sensing;
 mod supervised;
+mod whole_body;
 
 pub use acting::{CutTorques, Motors};
 pub use approximate::{ApproximateController, Approximation};

@@ -68,70 +68,83 @@ impl<T: Real, const LEGS: usize> Controller for SupervisedController<T, LEGS> {
     }
 
     fn memory(&self) -> Option<record::SupervisorMemory> {
-        let memory = self.supervisor.memory();
-        let flat = |legs: &[[T; 6]; LEGS]| -> Vec<f64> {
-            legs.as_flattened().iter().map(|x| x.to_f64()).collect()
-        };
-        Some(record::SupervisorMemory {
-            mode: memory.mode,
-            reason: memory.reason,
-            torques: flat(&memory.torques),
-            before: memory.before.as_ref().map(|before| {
-                let measured = &before.state;
-                let pose = measured.position.iter().copied().chain(measured.orientation.to_array());
-                let twist: [T; 6] = measured.velocity.to_array();
-                let mut positions: Vec<f64> = pose.map(Real::to_f64).collect();
-                let mut velocities = twist.map(Real::to_f64).to_vec();
-                positions.extend(flat(&measured.joint_angles));
-                velocities.extend(flat(&measured.joint_rates));
-                MeasuredBefore {
-                    positions,
-                    velocities,
-                    velocity: std::array::from_fn(|i| before.velocity[i].to_f64()),
-                    unexplained: before.unexplained.to_vec(),
-                }
-            }),
-            missed: memory.missed,
-            owed: memory.owed,
-            doubtful: memory.doubtful,
-            falling: memory.falling,
-            saturated: memory.saturated,
-            highest: memory.highest.map(Real::to_f64),
-            cut: memory.cut,
-        })
+        Some(recorded(self.supervisor.memory()))
     }
 
     fn remember(&mut self, memory: &record::SupervisorMemory) -> bool {
-        let joints = LEGS * LEG;
-        let fits = memory.torques.len() == joints
-            && memory.before.as_ref().is_none_or(|before| {
-                before.positions.len() == 7 + joints
-                    && before.velocities.len() == 6 + joints
-                    && before.unexplained.len() == LEGS
-            });
-        if !fits {
-            return false;
-        }
-        self.supervisor.remember(SupervisorMemory {
-            mode: memory.mode,
-            reason: memory.reason,
-            torques: by_leg(&memory.torques).map(|leg| leg.map(T::of)),
-            before: memory.before.as_ref().map(|before| Before {
-                state: measured(&PlantState {
-                    positions: before.positions.clone(),
-                    velocities: before.velocities.clone(),
-                }),
-                velocity: Vector3::from(before.velocity.map(T::of)),
-                unexplained: std::array::from_fn(|leg| before.unexplained[leg]),
-            }),
-            missed: memory.missed,
-            owed: memory.owed,
-            doubtful: memory.doubtful,
-            falling: memory.falling,
-            saturated: memory.saturated,
-            highest: memory.highest.map(T::of),
-            cut: memory.cut,
-        });
-        true
+        let memory = remembered(memory);
+        memory.is_some_and(|memory| {
+            self.supervisor.remember(memory);
+            true
+        })
     }
+}
+
+/// What a supervisor remembers, to be kept.
+pub(super) fn recorded<T: Real, const LEGS: usize>(
+    memory: &SupervisorMemory<T, LEGS>,
+) -> record::SupervisorMemory {
+    let flat = |legs: &[[T; 6]; LEGS]| -> Vec<f64> {
+        legs.as_flattened().iter().map(|x| x.to_f64()).collect()
+    };
+    record::SupervisorMemory {
+        mode: memory.mode,
+        reason: memory.reason,
+        torques: flat(&memory.torques),
+        before: memory.before.as_ref().map(|before| {
+            let measured = &before.state;
+            let pose = measured.position.iter().copied().chain(measured.orientation.to_array());
+            let twist: [T; 6] = measured.velocity.to_array();
+            let mut positions: Vec<f64> = pose.map(Real::to_f64).collect();
+            let mut velocities = twist.map(Real::to_f64).to_vec();
+            positions.extend(flat(&measured.joint_angles));
+            velocities.extend(flat(&measured.joint_rates));
+            MeasuredBefore {
+                positions,
+                velocities,
+                velocity: std::array::from_fn(|i| before.velocity[i].to_f64()),
+                unexplained: before.unexplained.to_vec(),
+            }
+        }),
+        missed: memory.missed,
+        owed: memory.owed,
+        doubtful: memory.doubtful,
+        falling: memory.falling,
+        saturated: memory.saturated,
+        highest: memory.highest.map(Real::to_f64),
+        cut: memory.cut,
+    }
+}
+
+/// What was kept, if it is of a supervisor of this size.
+pub(super) fn remembered<T: Real, const LEGS: usize>(
+    memory: &record::SupervisorMemory,
+) -> Option<SupervisorMemory<T, LEGS>> {
+    let joints = LEGS * LEG;
+    let fits = memory.torques.len() == joints
+        && memory.before.as_ref().is_none_or(|before| {
+            before.positions.len() == 7 + joints
+                && before.velocities.len() == 6 + joints
+                && before.unexplained.len() == LEGS
+        });
+    fits.then(|| SupervisorMemory {
+        mode: memory.mode,
+        reason: memory.reason,
+        torques: by_leg(&memory.torques).map(|leg| leg.map(T::of)),
+        before: memory.before.as_ref().map(|before| Before {
+            state: measured(&PlantState {
+                positions: before.positions.clone(),
+                velocities: before.velocities.clone(),
+            }),
+            velocity: Vector3::from(before.velocity.map(T::of)),
+            unexplained: std::array::from_fn(|leg| before.unexplained[leg]),
+        }),
+        missed: memory.missed,
+        owed: memory.owed,
+        doubtful: memory.doubtful,
+        falling: memory.falling,
+        saturated: memory.saturated,
+        highest: memory.highest.map(T::of),
+        cut: memory.cut,
+    })
 }

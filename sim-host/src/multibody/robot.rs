@@ -18,7 +18,7 @@ use surefoot::spatial::{Pose, Quaternion};
 pub fn system_of_tree<const N: usize, const NQ: usize, const NV: usize>(
     tree: &Tree<f64, N, NQ, NV>,
 ) -> Result<System, SystemError> {
-    let (system, axes) = principal_system_of_tree(tree)?;
+    let (system, axes) = principal_system_of_tree(tree, N)?;
     match axes.iter().position(Option::is_some) {
         Some(link) => {
             let what = "a body frame along the body's principal axes";
@@ -31,12 +31,14 @@ pub fn system_of_tree<const N: usize, const NQ: usize, const NV: usize>(
 /// Principal axes of each body, seen from its frame; `None` where they are the frame's.
 pub type PrincipalAxes = Vec<Option<Rotation3<f64>>>;
 
-/// The same with links' frames along their principal axes: these seen from the bodies' frames of the tree.
+/// The same of the first `bodies` with links' frames along their principal axes: these seen from the bodies' frames of
+/// the tree.
 ///
 /// # Errors
 /// As for [`system_of_tree`], but of principal axes.
 pub fn principal_system_of_tree<const N: usize, const NQ: usize, const NV: usize>(
     tree: &Tree<f64, N, NQ, NV>,
+    bodies: usize,
 ) -> Result<(System, PrincipalAxes), SystemError> {
     let gravity = tree.gravity();
     if gravity.x != 0.0 || gravity.y != 0.0 {
@@ -46,7 +48,7 @@ pub fn principal_system_of_tree<const N: usize, const NQ: usize, const NV: usize
     let mut axes = Vec::with_capacity(N);
     let mut links = Vec::with_capacity(N);
     let mut rotors = Vec::new();
-    for k in 0..N {
+    for k in 0..bodies.min(N) {
         let unsupported = |what| SystemError::Unsupported { link: k, what };
         // k < N, so that both are there.
         let (Some(mut shape), Some(kind)) = (tree.body_shape(k), tree.joint(k)) else { break };

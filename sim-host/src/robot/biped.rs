@@ -90,10 +90,12 @@ fn made(outline: Outline) -> Robot {
         name: "biped".to_owned(),
         tree: SizedTree::Two(TREE),
         bodies: BODIES.map(str::to_owned).to_vec(),
+        slides: vec![false; LEG * LEGS.len()],
         // With the dissertation's numbers.
         joints: of_legs(|side, number, (joint, _)| format!("{side} {joint} ({})", number + 2)),
         columns: of_legs(|side, _, (_, joint)| format!("{side}_{joint}")),
         legs: LEGS.map(|side| format!("{side} leg")).to_vec(),
+        leg_joints: (0..LEGS.len()).map(|leg| (LEG * leg..LEG * (leg + 1)).collect()).collect(),
         feet: LEGS.iter().zip(FEET).map(foot).collect(),
         shapes: shapes(&sole),
         small_bodies: &SMALL_BODIES,

@@ -1,12 +1,14 @@
 //! A robot of a file as scenes take it: its tree, names, feet, limits, and what it looks like.
 
 use super::{
-    Foot, FootPoint, LEG, Limits, MOST_LEGS, Passive, Robot, SizedTree, stance, with_tree,
+    Contacts, Foot, FootPoint, LEG, Limits, MOST_LEGS, Passive, Robot, SizedTree, stance, with_tree,
 };
 use crate::picture::Solid;
 use nalgebra::{Matrix3, Vector3};
 use surefoot::model::TreeFault;
-use surefoot_robots::{JointProperties, Robot as FileRobot, RobotLink, core_links, legs};
+use surefoot_robots::{
+    Foot as FileFoot, JointProperties, Robot as FileRobot, RobotLink, RobotMotion, core_links, legs,
+};
 
 /// Part of the height of the central body at the start, upright on its feet, below which it has fallen. The biped's
 /// is the same.
@@ -20,17 +22,20 @@ const WATER: f64 = 1e3;
 /// Why a robot of a file cannot be in a scene.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoLeggedRobot {
-    /// It has other joints than those of its legs, or none.
+    /// Its first link does not float.
+    #[error("a floating body on legs; here {0} does not float")]
+    Central(String),
+    /// A joint is none that it moves, or there are too many.
     #[error(
-        "a floating body on two to {MOST_LEGS} legs of six revolute joints each and nothing else (`lock` fixes other \
-         joints); this one has {links} moving links"
+        "at most {most} revolute or prismatic joints that follow no other (`lock` fixes joints); {what}",
+        most = super::sized_tree::MOST_JOINTS
     )]
-    Legs {
-        /// How many links move.
-        links: usize,
+    Joints {
+        /// What is wrong.
+        what: String,
     },
-    /// A leg has no foot, or a foot no leg.
-    #[error("one foot at the end of each leg (`feet` names their links); {what}")]
+    /// A foot has no leg.
+    #[error("one to {MOST_LEGS} feet, each at the end of a leg (`feet` names their links); {what}")]
     Feet {
         /// What is wrong.
         what: String,
@@ -52,27 +57,34 @@ impl Robot {
     /// # Errors
     /// A [`NoLeggedRobot`].
     pub fn of_file(file: &FileRobot) -> Result<Self, NoLeggedRobot> {
-        let links = file.links.len();
-        let leg_count = legs(file).ok_or(NoLeggedRobot::Legs { links })?;
         let [x, y, z] = file.gravity;
         if !(x == 0.0 && y == 0.0 && z < 0.0) {
             return Err(NoLeggedRobot::Gravity(file.gravity));
         }
-        let tree = SizedTree::try_new(&core_links(file), file.gravity)
-            .ok_or(NoLeggedRobot::Legs { links })?
-            .map_err(NoLeggedRobot::Tree)?;
-        let feet = (0..leg_count).map(|leg| foot(file, leg)).collect::<Result<Vec<_>, _>>()?;
-        if let Some(other) = file.feet.iter().find(|foot| foot.link % LEG != 0 || foot.link == 0) {
-            let what = format!("{} is at the end of none", other.name);
-            return Err(NoLeggedRobot::Feet { what });
-        }
+        let tree =
+            match legs(file).and_then(|_| SizedTree::try_new(&core_links(file), file.gravity)) {
+                Some(tree) if feet_are_at_the_ends(file) => tree,
+                _ => any_tree(file)?,
+            };
+        let tree = tree.map_err(NoLeggedRobot::Tree)?;
+        let feet = match tree.is_six_jointed() {
+            true => (0..file.feet.len()).map(|leg| foot_of_leg(file, leg)).collect(),
+            false => file.feet.iter().map(|own| as_one_point(foot(file, own))).collect::<Vec<_>>(),
+        };
         let joints: Vec<String> =
             file.links.iter().skip(1).map(|link| link.joint.name.clone()).collect();
         let mut robot = Self {
             name: file.name.clone(),
             bodies: file.links.iter().map(|link| link.name.clone()).collect(),
             columns: joints.clone(),
+            slides: file
+                .links
+                .iter()
+                .skip(1)
+                .map(|link| link.joint.motion == RobotMotion::Prismatic)
+                .collect(),
             legs: feet.iter().map(|foot| format!("leg to {}", foot.name)).collect(),
+            leg_joints: (0..feet.len()).map(|leg| (LEG * leg..LEG * (leg + 1)).collect()).collect(),
             shapes: shapes(&file.links, &feet),
             joints,
             feet,
@@ -82,6 +94,9 @@ impl Robot {
             limits: Limits::none(),
             fallen_height: 0.0,
         };
+        if !robot.tree.is_six_jointed() {
+            robot.leg_joints = Contacts::of(&robot)?.leg_joints;
+        }
         let height = stance::height(&robot, &vec![0.0; robot.joint_count()]);
         robot.limits = Limits::of_file(file, &robot, height);
         robot.fallen_height = FALLEN * height;
@@ -96,28 +111,68 @@ fn passive(link: &RobotLink) -> Passive {
     Passive { damping, friction }
 }
 
+/// Whether each leg of six joints has one foot, at its end, and no other link has one.
+fn feet_are_at_the_ends(file: &FileRobot) -> bool {
+    let mut links: Vec<usize> = file.feet.iter().map(|foot| foot.link).collect();
+    links.sort_unstable();
+    let ends = (1..file.links.len()).filter(|link| link.is_multiple_of(LEG));
+    links.into_iter().eq(ends)
+}
+
+/// Of a robot with other joints.
+fn any_tree(file: &FileRobot) -> Result<Result<SizedTree, TreeFault>, NoLeggedRobot> {
+    let refuse = |what: String| NoLeggedRobot::Joints { what };
+    let (central, rest) = match file.links.split_first() {
+        Some((central, rest)) if central.joint.motion == RobotMotion::Floating => (central, rest),
+        Some((other, _)) => return Err(NoLeggedRobot::Central(other.name.clone())),
+        None => return Err(NoLeggedRobot::Central("nothing".into())),
+    };
+    for link in rest {
+        let joint = &link.joint;
+        if !joint.motion.has_axis() {
+            return Err(refuse(format!("{} is neither", joint.name)));
+        }
+        if joint.follows.is_some() {
+            return Err(refuse(format!("{} follows another", joint.name)));
+        }
+        if link.parent.is_none() {
+            return Err(refuse(format!("{} does not hang from {}", link.name, central.name)));
+        }
+    }
+    if file.feet.is_empty() || file.feet.len() > MOST_LEGS {
+        let what = format!("it has {}", file.feet.len());
+        return Err(NoLeggedRobot::Feet { what });
+    }
+    SizedTree::of_any(&core_links(file), file.gravity)
+        .ok_or_else(|| refuse(format!("it has {}", rest.len())))
+}
+
 /// Both precisions hold the limits.
 fn check_limits(robot: &Robot) -> Result<(), NoLeggedRobot> {
+    let missing = || NoLeggedRobot::Limits("some are missing".into());
+    let wrong = |error: surefoot::balance::LimitError| NoLeggedRobot::Limits(error.to_string());
     with_tree!(&robot.tree, _tree, LEGS => {
-        let limits = robot.limits.sized::<LEGS>();
-        let limits = limits.ok_or_else(|| NoLeggedRobot::Limits("some are missing".into()))?;
-        limits.check().map_err(|error| NoLeggedRobot::Limits(error.to_string()))?;
-        limits.to_f32().check().map_err(|error| NoLeggedRobot::Limits(error.to_string()))
+        let limits = robot.limits.sized::<LEGS>().ok_or_else(missing)?;
+        limits.check().map_err(wrong)?;
+        limits.to_f32().check().map_err(wrong)
+    }, _tree, ROWS => {
+        let limits = robot.limits.in_rows::<ROWS>().ok_or_else(missing)?;
+        limits.check().map_err(wrong)?;
+        limits.to_f32().check().map_err(wrong)
     })
 }
 
-/// The foot of a leg, in the frame of its last body.
-fn foot(file: &FileRobot, leg: usize) -> Result<Foot, NoLeggedRobot> {
+/// The foot at the end of a leg of six joints.
+fn foot_of_leg(file: &FileRobot, leg: usize) -> Foot {
     let body = LEG * (leg + 1);
-    let mut own = file.feet.iter().filter(|foot| foot.link == body);
-    let refuse = |what: String| NoLeggedRobot::Feet { what };
-    let last = &file.links[body];
-    let (foot, other) = (own.next(), own.next());
-    let foot = foot.ok_or_else(|| refuse(format!("none is on {}", last.name)))?;
-    if let Some(other) = other {
-        return Err(refuse(format!("{} and {} are on the same leg", foot.name, other.name)));
-    }
-    let center = last.inertial.center;
+    let own = file.feet.iter().find(|foot| foot.link == body);
+    foot(file, own.unwrap_or(&file.feet[leg]))
+}
+
+/// A foot, in the frame of its body.
+fn foot(file: &FileRobot, foot: &FileFoot) -> Foot {
+    let body = foot.link;
+    let center = file.links[body].inertial.center;
     let point = |(k, at): (usize, &Vector3<f64>)| FootPoint {
         column: format!("{}_point_{}", foot.name, k + 1),
         at: at - center,
@@ -128,13 +183,27 @@ fn foot(file: &FileRobot, leg: usize) -> Result<Foot, NoLeggedRobot> {
         let there = |p: &Vector3<f64>| if is_ahead { p.x > middle.x } else { p.x < middle.x };
         foot.points.iter().enumerate().filter(|(_, p)| there(p)).map(|(k, _)| k).collect()
     };
-    Ok(Foot {
+    Foot {
         name: foot.name.clone(),
         column: foot.name.clone(),
         body,
         points: foot.points.iter().enumerate().map(point).collect(),
         ends: [end(false), end(true)],
-    })
+    }
+}
+
+/// A foot whose points lie so near each other that the controller takes it for a point: it is one to the floor as well.
+fn as_one_point(mut foot: Foot) -> Foot {
+    let middle = foot.points.iter().fold(Vector3::zeros(), |sum, point| sum + point.at)
+        / foot.points.len() as f64;
+    let is_small =
+        foot.points.iter().all(|point| 2.0 * (point.at - middle).norm() < contacts::LEAST_LENGTH);
+    if is_small && let Some(first) = foot.points.first_mut() {
+        first.at = middle;
+        foot.points.truncate(1);
+        foot.ends = [Vec::new(), Vec::new()];
+    }
+    foot
 }
 
 /// Links as bars from joint to joint, feet as boxes around their points and their joint, the central body as the

@@ -8,7 +8,7 @@
 //! Under one gravity lengths scale by `λ`, times by `√λ`, speeds by `√λ`, angular speeds by `1/√λ`, torques by `μλ`,
 //! what damps a joint by `μ λ √λ`. Angles, accelerations, ratios and numbers of ticks stay.
 
-use super::{LEG, Limits, Robot, SizedTree, with_tree};
+use super::{Limits, Robot, SizedTree, with_tree};
 use nalgebra::DMatrix;
 use surefoot::balance::{JointDamping, JointLimits, Thresholds};
 use surefoot::dynamics::{joint_poses, mass_matrix};
@@ -22,6 +22,8 @@ const RATE: f64 = 100.0;
 const ANGLE: f64 = 3.2;
 /// Torque of a joint whose file says none: weight times height times this.
 const TORQUE: f64 = 1.0;
+/// Velocities of the central body.
+const BASE: usize = 6;
 /// Postures in which a joint's least inertia is looked for, and what is taken of the least that was found.
 const POSTURES: usize = 64;
 const SURELY_LESS: f64 = 0.5;
@@ -86,7 +88,7 @@ fn least_inertias(file: &FileRobot, tree: &SizedTree) -> Vec<f64> {
         let angles: Vec<f64> = (0..joints).map(angle).collect();
         let Some(inverse) = inertia(tree, &angles).and_then(DMatrix::try_inverse) else { continue };
         for (joint, least) in least.iter_mut().enumerate() {
-            let turned = 1.0 / inverse[(LEG + joint, LEG + joint)];
+            let turned = 1.0 / inverse[(BASE + joint, BASE + joint)];
             if turned > 0.0 {
                 *least = least.min(turned);
             }
@@ -100,14 +102,14 @@ fn least_inertias(file: &FileRobot, tree: &SizedTree) -> Vec<f64> {
 }
 
 /// The mass matrix at joint angles.
-fn inertia(tree: &SizedTree, angles: &[f64]) -> Option<DMatrix<f64>> {
+fn inertia(sized: &SizedTree, angles: &[f64]) -> Option<DMatrix<f64>> {
     let mut positions = vec![0.0; 7];
     positions[3] = 1.0;
     positions.extend(angles);
-    with_tree!(tree, tree => {
-        let poses = joint_poses(tree, positions.as_slice().try_into().ok()?).ok()?;
+    with_tree!(sized, tree => {
+        let poses = joint_poses(tree, &sized.sized(&positions, 7)).ok()?;
         let rows = mass_matrix(tree, &poses);
-        let n = rows.len();
+        let n = BASE + angles.len();
         Some(DMatrix::from_fn(n, n, |i, j| rows[i][j]))
     })
 }

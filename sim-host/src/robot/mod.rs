@@ -3,7 +3,9 @@
 //! Sizes are known when the program runs. Core's algorithms are compiled for some of them, which [`SizedTree`] alone
 //! tells apart.
 
+mod bent_legs;
 mod biped;
+mod contacts;
 mod from_file;
 mod identity;
 mod limits;
@@ -13,6 +15,7 @@ pub mod stance;
 mod stand_scene;
 
 pub use biped::{SMALL_BODIES, biped};
+pub(crate) use contacts::Contacts;
 pub use from_file::NoLeggedRobot;
 pub(crate) use sized_tree::with_tree;
 pub use sized_tree::{LEG, MOST_LEGS, SizedTree, Start};
@@ -26,8 +29,7 @@ use nalgebra::Vector3;
 use std::sync::Arc;
 use surefoot::balance::{JointDamping, JointLimits, SafetyLimits, Thresholds};
 
-/// A legged robot: a floating central body on legs of six revolute joints, joint after joint from hip to foot, leg
-/// after leg.
+/// A legged robot: a floating central body on legs, and what else moves.
 #[derive(Clone, Debug)]
 pub struct Robot {
     /// Name, for people.
@@ -38,10 +40,14 @@ pub struct Robot {
     pub bodies: Vec<String>,
     /// Names of the joints in the order of torques and angles, for people.
     pub joints: Vec<String>,
+    /// Whether each joint slides.
+    pub slides: Vec<bool>,
     /// The same as columns of a record have them.
     pub columns: Vec<String>,
     /// Names of the legs.
     pub legs: Vec<String>,
+    /// The joints of each leg, hip to foot, by their place in `joints`; body k + 1 hangs from joint k.
+    pub leg_joints: Vec<Vec<usize>>,
     /// The foot of each leg.
     pub feet: Vec<Foot>,
     /// What each body looks like, in its frame.
@@ -120,9 +126,10 @@ impl Robot {
         self.joints.len()
     }
 
-    /// Leg of a body; `None` for the central one.
+    /// Leg of a body; `None` for the central one and for other limbs.
     pub fn leg_of(&self, body: usize) -> Option<usize> {
-        body.checked_sub(1).map(|joint| joint / LEG)
+        let joint = body.checked_sub(1)?;
+        self.leg_joints.iter().position(|joints| joints.contains(&joint))
     }
 
     /// How many bodies a model of it has.
@@ -149,6 +156,20 @@ impl Limits {
             stop_s: self.stop_s,
             thresholds: self.thresholds,
         })
+    }
+}
+
+impl Limits {
+    /// The same in rows of six joints, of which those that the robot has not are free: as the supervisor of a robot
+    /// with other legs takes them; `None` for more joints than that.
+    pub fn in_rows<const ROWS: usize>(&self) -> Option<SafetyLimits<f64, ROWS>> {
+        let missing = (ROWS * LEG).checked_sub(self.joints.len())?;
+        let joint = JointLimits { torque: 1.0, angle: [-1.0, 1.0], rate: 1.0 };
+        let damping = JointDamping { damping: 0.0, inertia: 1.0 };
+        let mut all = self.clone();
+        all.joints.extend(std::iter::repeat_n(joint, missing));
+        all.damping.extend(std::iter::repeat_n(damping, missing));
+        all.sized()
     }
 }
 

@@ -1,4 +1,8 @@
-//! Core's trees by their number of legs: the one place that tells sizes apart.
+//! Core's trees by their size: the one place that tells sizes apart.
+//!
+//! Robots on two to four legs of six joints have trees of their own size. All others are compiled for two sizes, as
+//! each takes long to compile, and take the smaller that they fit: the rest is filled with sliding bodies on the
+//! world, at rest, which share no number with the robot's and leave its bits alone.
 
 use crate::multibody::{BodyState, Frame, System, principal_system_of_tree, states_of_tree};
 use crate::plant::StepFailure;
@@ -12,7 +16,7 @@ pub const LEG: usize = 6;
 /// Legs that the controller is compiled for: two to four.
 pub const MOST_LEGS: usize = 4;
 
-/// A floating body on two, three or four legs of six joints.
+/// A floating body on two, three or four legs of six joints, or with other joints.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "a program holds a few of them")]
 pub enum SizedTree {
@@ -22,18 +26,34 @@ pub enum SizedTree {
     Three(Tree<f64, 19, 25, 24>),
     /// On four.
     Four(Tree<f64, 25, 31, 30>),
+    /// With other joints, up to 18; how many bodies are the robot's.
+    Few(Box<Tree<f64, 19, 25, 24>>, usize),
+    /// The same, up to 42.
+    Many(Box<Tree<f64, 43, 49, 48>>, usize),
 }
 
-/// Evaluates an expression with a [`SizedTree`]'s tree, and with the number of its legs as a constant.
+/// Joints of a robot at most.
+pub const MOST_JOINTS: usize = 42;
+
+/// Evaluates an expression with a [`SizedTree`]'s tree; with the number of its legs as a constant where all have six
+/// joints, and else another one, with the number of rows of six joints that the tree has room for.
 macro_rules! with_tree {
     ($sized:expr, $tree:ident => $result:expr) => {
         match $sized {
             $crate::robot::SizedTree::Two($tree) => $result,
             $crate::robot::SizedTree::Three($tree) => $result,
             $crate::robot::SizedTree::Four($tree) => $result,
+            $crate::robot::SizedTree::Few(boxed, _) => {
+                let $tree = &**boxed;
+                $result
+            }
+            $crate::robot::SizedTree::Many(boxed, _) => {
+                let $tree = &**boxed;
+                $result
+            }
         }
     };
-    ($sized:expr, $tree:ident, $legs:ident => $result:expr) => {
+    ($sized:expr, $tree:ident, $legs:ident => $result:expr, $any:ident, $rows:ident => $other:expr) => {
         match $sized {
             $crate::robot::SizedTree::Two($tree) => {
                 const $legs: usize = 2;
@@ -46,6 +66,16 @@ macro_rules! with_tree {
             $crate::robot::SizedTree::Four($tree) => {
                 const $legs: usize = 4;
                 $result
+            }
+            $crate::robot::SizedTree::Few(boxed, _) => {
+                const $rows: usize = 3;
+                let $any = &**boxed;
+                $other
+            }
+            $crate::robot::SizedTree::Many(boxed, _) => {
+                const $rows: usize = 7;
+                let $any = &**boxed;
+                $other
             }
         }
     };
@@ -86,13 +116,40 @@ impl SizedTree {
         }
     }
 
+    /// Of a floating link and others on joints of one degree of freedom; `None` for more than [`MOST_JOINTS`].
+    ///
+    /// # Errors
+    /// A [`TreeFault`] where they are no tree.
+    pub fn of_any(links: &[Link], gravity: [f64; 3]) -> Option<Result<Self, TreeFault>> {
+        fn filled<const N: usize, const NQ: usize, const NV: usize>(
+            links: &[Link],
+            gravity: [f64; 3],
+        ) -> Result<Box<Tree<f64, N, NQ, NV>>, TreeFault> {
+            let filling = Link::prismatic(0, [1.0, 0.0, 0.0]).body(1.0, [1.0; 3], [0.0; 3]);
+            let all: [Link; N] = std::array::from_fn(|k| links.get(k).copied().unwrap_or(filling));
+            Tree::try_new(all).map(|tree| Box::new(tree.with_gravity(gravity)))
+        }
+        let bodies = links.len();
+        match bodies {
+            0..=19 => Some(filled(links, gravity).map(|tree| Self::Few(tree, bodies))),
+            20..=43 => Some(filled(links, gravity).map(|tree| Self::Many(tree, bodies))),
+            _ => None,
+        }
+    }
+
+    /// Whether all that moves is a floating body on legs of six joints.
+    pub fn is_six_jointed(&self) -> bool {
+        matches!(self, Self::Two(_) | Self::Three(_) | Self::Four(_))
+    }
+
     /// Where all bodies are, world from body, at position, quaternion and angles.
     ///
     /// # Errors
     /// A [`DynamicsFault`] for what is no configuration of the tree.
     pub fn body_poses(&self, positions: &[f64]) -> Result<Vec<Pose<f64>>, DynamicsFault> {
         with_tree!(self, tree => {
-            Ok(body_poses(tree, &joint_poses(tree, &sized(positions))?).to_vec())
+            let poses = body_poses(tree, &joint_poses(tree, &self.sized(positions, 7))?);
+            Ok(poses[..self.bodies()].to_vec())
         })
     }
 
@@ -103,9 +160,13 @@ impl SizedTree {
     /// As for [`principal_system_of_tree`], and a [`DynamicsFault`] for what is no configuration of the tree.
     pub fn start(&self, positions: &[f64], velocities: &[f64]) -> Result<Start, StepFailure> {
         with_tree!(self, tree => {
-            let (system, axes) = principal_system_of_tree(tree)?;
+            let bodies = self.bodies();
+            let (system, mut axes) = principal_system_of_tree(tree, bodies)?;
             let (mut states, mut rates) =
-                states_of_tree(tree, &sized(positions), &sized(velocities))?;
+                states_of_tree(tree, &self.sized(positions, 7), &self.sized(velocities, 6))?;
+            axes.truncate(bodies);
+            states.truncate(bodies);
+            rates.truncate(bodies);
             let mut frames = vec![Frame::IDENTITY; axes.len()];
             for (k, axes) in axes.iter().enumerate() {
                 let Some(axes) = axes else { continue };
@@ -127,6 +188,7 @@ impl SizedTree {
             Self::Two(_) => 13,
             Self::Three(_) => 19,
             Self::Four(_) => 25,
+            Self::Few(_, bodies) | Self::Many(_, bodies) => *bodies,
         }
     }
 
@@ -142,16 +204,22 @@ impl SizedTree {
 
     /// Of all bodies, kg.
     pub fn mass(&self) -> f64 {
-        with_tree!(self, tree => tree.mass())
+        (0..self.bodies()).fold(0.0, |sum, body| sum + self.body_mass(body))
+    }
+
+    /// As many numbers as the tree has: those given, of which the central body has so many and each joint one, and
+    /// zeros for what is not the robot's. A missing one is NaN, which core refuses.
+    pub(crate) fn sized<const M: usize>(&self, numbers: &[f64], central: usize) -> [f64; M] {
+        let own = central + self.bodies() - 1;
+        std::array::from_fn(|i| match numbers.get(i) {
+            Some(number) if i < own => *number,
+            None if i < own => f64::NAN,
+            _ => 0.0,
+        })
     }
 
     /// m/s²
     pub fn gravity(&self) -> Vector3<f64> {
         with_tree!(self, tree => tree.gravity())
     }
-}
-
-/// As many numbers as a tree has; a missing one is NaN, which core refuses.
-fn sized<const N: usize>(numbers: &[f64]) -> [f64; N] {
-    std::array::from_fn(|i| numbers.get(i).copied().unwrap_or(f64::NAN))
 }

@@ -1,7 +1,7 @@
 //! How a robot stands: where its feet are, and with which joint angles its legs are bent and its centre of mass is
 //! over its feet.
 
-use super::{Foot, LEG, Robot};
+use super::{Foot, LEG, Robot, bent_legs};
 use crate::plant::PlantState;
 use nalgebra::{Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
 use surefoot::spatial::{Pose, Quaternion};
@@ -54,6 +54,9 @@ impl Robot {
 /// Joint angles (rad) with which the robot stands upright on bent legs, its soles as they are with all joints at 0,
 /// its centre of mass over the middle of its feet; `None` where some leg finds none within its joints' ranges.
 pub fn bent(robot: &Robot) -> Option<Vec<f64>> {
+    if !robot.tree.is_six_jointed() {
+        return bent_legs::bent(robot);
+    }
     let home = PlantState::home(robot.joint_count());
     let poses = robot.tree.body_poses(&home.positions).ok()?;
     let mut angles = vec![0.0; robot.joint_count()];
@@ -79,7 +82,7 @@ pub fn bent(robot: &Robot) -> Option<Vec<f64>> {
 }
 
 /// From the feet's middle to the centre of mass, along the floor, m.
-fn off_middle(robot: &Robot, state: &PlantState) -> Option<Vector3<f64>> {
+pub(super) fn off_middle(robot: &Robot, state: &PlantState) -> Option<Vector3<f64>> {
     let poses = robot.tree.body_poses(&state.positions).ok()?;
     let weighted = poses.iter().enumerate().map(|(k, p)| p.position * robot.tree.body_mass(k));
     let center = weighted.sum::<Vector3<f64>>() / robot.tree.mass();
@@ -98,7 +101,11 @@ fn middle(points: &[Vector3<f64>]) -> Vector3<f64> {
 }
 
 /// A joint's point and axis in the world.
-fn joint(robot: &Robot, poses: &[Pose<f64>], body: usize) -> Option<(Vector3<f64>, Vector3<f64>)> {
+pub(super) fn joint(
+    robot: &Robot,
+    poses: &[Pose<f64>],
+    body: usize,
+) -> Option<(Vector3<f64>, Vector3<f64>)> {
     let shape = robot.tree.body_shape(body)?;
     let pose = poses.get(body)?;
     Some((pose.transform_point(shape.joint), pose.rotation * shape.axis))

@@ -3,6 +3,7 @@
 use super::{Robot, stance};
 use crate::contact::Floor;
 use std::fmt::Write;
+use surefoot::balance::WholeBodySettings;
 use surefoot::model::robots::biped;
 use surefoot::spatial::Quaternion;
 
@@ -18,31 +19,21 @@ const DAMPING_RATIO: f64 = 0.5;
 
 /// The text of a scene in which the robot of `file` stands for 3 s on bent legs, from a rest on the floor; `None` where
 /// its legs find no such angles.
-pub fn stand_scene(robot: &Robot, file: &str, locked: &[(String, f64)]) -> Option<String> {
+pub fn stand_scene(robot: &Robot, file: &str) -> Option<String> {
     let angles = stance::bent(robot)?;
     let mut out = String::new();
     // Writing to a string does not fail.
-    write_scene(&mut out, robot, file, locked, &angles).ok()?;
+    write_scene(&mut out, robot, file, &angles).ok()?;
     Some(out)
 }
 
-fn write_scene(
-    out: &mut String,
-    robot: &Robot,
-    file: &str,
-    locked: &[(String, f64)],
-    angles: &[f64],
-) -> std::fmt::Result {
+fn write_scene(out: &mut String, robot: &Robot, file: &str, angles: &[f64]) -> std::fmt::Result {
     let height = stance::on_floor(robot, angles, Quaternion::identity()).positions[2];
     let (mass, points) = (robot.tree.mass(), robot.points_of_feet().iter().sum::<usize>());
     writeln!(out, "# Written by `surefoot import`. docs/robots.md says what may stand here.")?;
     writeln!(out, "description = {:?}", format!("{} stands on bent legs", robot.name))?;
     writeln!(out, "duration_s = 3.0\n")?;
     writeln!(out, "[robot]\nfile = {file:?}")?;
-    if !locked.is_empty() {
-        writeln!(out, "# joints that no foot hangs from: rad, or m\n[robot.lock]")?;
-        locked.iter().try_for_each(|(joint, at)| writeln!(out, "{} = {at:?}", key(joint)))?;
-    }
     writeln!(out, "\n[integrator]\nname = \"variational\"\nstep_s = 1e-3\n")?;
     writeln!(
         out,
@@ -53,15 +44,10 @@ fn write_scene(
         writeln!(out, "{} = {:.4}", key(joint), angle.to_degrees())?;
     }
     let time = (height / super::limits::BIPED_HEIGHT).sqrt();
-    let position = POSITION_GAIN.map(|gain| gain / (time * time));
-    let orientation = [ORIENTATION_GAIN / (time * time); 3];
-    let damping = |gains: [f64; 3]| gains.map(|gain| 2.0 * DAMPING_RATIO * gain.sqrt());
-    writeln!(out, "\n[controller]\nrate_hz = 500.0")?;
-    writeln!(out, "position_gain = {}", list(position))?;
-    writeln!(out, "velocity_gain = {}", list(damping(position)))?;
-    writeln!(out, "orientation_gain = {}", list(orientation))?;
-    writeln!(out, "angular_velocity_gain = {}", list(damping(orientation)))?;
-    writeln!(out, "workspace = \"fixed-foot\"\ntorques_from = \"start\"")?;
+    match robot.tree.is_six_jointed() {
+        true => six_jointed(out, time)?,
+        false => whole_body(out, height, robot.tree.gravity().norm())?,
+    }
     // As deep and as damped under its weight, in its own times and lengths, as the biped's.
     let part = mass / biped::TREE.mass() * BIPED_POINTS / points.max(1) as f64;
     let (stiffness, damper) = (part / (time * time), part / time);
@@ -73,6 +59,33 @@ fn write_scene(
     writeln!(out, "tangential_damping = {:.1}", damper * normal_damping)?;
     writeln!(out, "static_friction = {FRICTION}\ndynamic_friction = {FRICTION}")?;
     writeln!(out, "zero_velocity_threshold = {zero_velocity_threshold}")
+}
+
+/// The controller of legs of six joints, in times of the biped's.
+fn six_jointed(out: &mut String, time: f64) -> std::fmt::Result {
+    let position = POSITION_GAIN.map(|gain| gain / (time * time));
+    let orientation = [ORIENTATION_GAIN / (time * time); 3];
+    let damping = |gains: [f64; 3]| gains.map(|gain| 2.0 * DAMPING_RATIO * gain.sqrt());
+    writeln!(out, "\n[controller]\nrate_hz = 500.0")?;
+    writeln!(out, "position_gain = {}", list(position))?;
+    writeln!(out, "velocity_gain = {}", list(damping(position)))?;
+    writeln!(out, "orientation_gain = {}", list(orientation))?;
+    writeln!(out, "angular_velocity_gain = {}", list(damping(orientation)))?;
+    writeln!(out, "workspace = \"fixed-foot\"\ntorques_from = \"start\"")
+}
+
+/// The whole-body controller, at the starting values of core for a robot so high (m) under gravity (m/s²).
+fn whole_body(out: &mut String, height: f64, gravity: f64) -> std::fmt::Result {
+    let gains = WholeBodySettings::<f64, 6>::scaled(height, gravity, 1).gains;
+    let same = |gain: surefoot::spatial::SymmetricMatrix3<f64>| list(gain.diagonal.into());
+    writeln!(out, "\n# starting values: 10 g/z and 5.2 √(g/z) at the height z; docs/tuning.md")?;
+    writeln!(out, "[controller]\nrate_hz = 500.0")?;
+    writeln!(out, "position_gain = {}", same(gains.position))?;
+    writeln!(out, "velocity_gain = {}", same(gains.velocity))?;
+    writeln!(out, "orientation_gain = {}", same(gains.orientation))?;
+    writeln!(out, "angular_velocity_gain = {}", same(gains.angular_velocity))?;
+    writeln!(out, "workspace = \"fixed-foot\"\ndistribution = \"limited\"")?;
+    writeln!(out, "torques_from = \"start\"")
 }
 
 /// A name as a key of TOML.

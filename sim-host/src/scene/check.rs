@@ -107,6 +107,7 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
         return Err(wrong(scene, "controller.distribution", "limited", expected));
     }
     if controller.distribution == Distribution::Limited
+        && scene.robot().tree.is_six_jointed()
         && let Err(no_sole) = scene.robot().soles()
     {
         let expected = format!("\"least-norm\" for a robot without flat soles: {no_sole}");

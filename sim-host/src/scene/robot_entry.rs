@@ -11,13 +11,13 @@ use std::sync::Arc;
 use surefoot::spatial::Quaternion;
 use surefoot_robots::{Options, Robot as Described, import, robot_toml};
 
-/// The robot of a scene. Joints that no foot hangs from are locked at 0, unless another place is given.
+/// The robot of a scene. All its joints move but those that are locked.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotEntry {
     /// A robot.toml, URDF or MJCF file; relative to the scene's folder.
     pub file: String,
-    /// Joints that are locked elsewhere than at 0, or though a foot hangs from them: rad, or m.
+    /// Joints that are locked, and where: rad, or m.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub lock: BTreeMap<String, f64>,
     /// Links that stand on the floor; those of the file, or that are found in it, unless said.
@@ -75,7 +75,6 @@ pub(super) fn resolve(
     let options = Options {
         locks: entry.lock.iter().map(|(name, at)| (name.clone(), *at)).collect(),
         feet: entry.feet.clone(),
-        legs_only: true,
         find_feet: true,
         ..Options::default()
     };
@@ -110,7 +109,7 @@ fn start(scene: &Scene, robot: &Robot) -> Result<crate::plant::PlantState, Scene
     for (name, degrees) in &initial.joints_deg {
         let field = format!("initial.joints_deg.{name}");
         let Some(joint) = robot.joints.iter().position(|joint| joint == name) else {
-            let expected = format!("a joint of the robot's legs: {}", robot.joints.join(", "));
+            let expected = format!("a joint of the robot: {}", robot.joints.join(", "));
             return Err(wrong(scene, &field, degrees, expected));
         };
         let [low, high] = robot.limits.joints[joint].angle.map(f64::to_degrees);

@@ -20,11 +20,12 @@ fn surefoot(folder: &Path, arguments: &[&str]) -> String {
     text(&output.stdout)
 }
 
-fn stands(name: &str, file: &str) {
+fn stands(name: &str, file: &str, options: &[&str]) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("real-robots");
     std::fs::create_dir_all(&folder).expect("a folder below the target directory");
     let file = example_robot(file);
-    surefoot(&folder, &["import", file.to_str().expect("UTF-8"), "--out", name]);
+    let import = ["import", file.to_str().expect("UTF-8"), "--out", name];
+    surefoot(&folder, &[&import[..], options].concat());
     for scalar in ["f32", "f64"] {
         let (scene, out) = (format!("{name}/stand.toml"), format!("{name}-{scalar}"));
         let run = ["run", &scene, "--scalar", scalar, "--json", "--out", &out];
@@ -34,14 +35,45 @@ fn stands(name: &str, file: &str) {
     }
 }
 
+/// With waist and arms moving.
 #[test]
 #[ignore = "needs robot files: `cargo xtask test --only robots`"]
 fn g1_stands() {
-    stands("g1", "g1_description/urdf/g1_29dof_rev_1_0.urdf");
+    stands("g1", "g1_description/urdf/g1_29dof_rev_1_0.urdf", &[]);
+}
+
+/// On its legs of six joints alone, by the recursive controller.
+#[test]
+#[ignore = "needs robot files: `cargo xtask test --only robots`"]
+fn g1_stands_on_its_legs_alone() {
+    stands(
+        "g1-legs",
+        "g1_description/urdf/g1_29dof_rev_1_0.urdf",
+        &["--feet", "left_ankle_roll_link,right_ankle_roll_link", "--legs-only"],
+    );
+}
+
+/// Legs of five joints: soles that the controller takes for edges.
+#[test]
+#[ignore = "needs robot files: `cargo xtask test --only robots`"]
+fn g1_stands_without_ankle_rolls() {
+    stands(
+        "g1-five",
+        "g1_description/urdf/g1_29dof_rev_1_0.urdf",
+        &["--lock", "left_ankle_roll_joint,right_ankle_roll_joint"],
+    );
 }
 
 #[test]
 #[ignore = "needs robot files: `cargo xtask test --only robots`"]
 fn talos_stands() {
-    stands("talos", "talos_data/robots/talos_reduced.urdf");
+    stands("talos", "talos_data/robots/talos_reduced.urdf", &[]);
+}
+
+/// Four legs of three joints on points.
+#[test]
+#[ignore = "needs robot files: `cargo xtask test --only robots`"]
+fn quadrupeds_stand() {
+    stands("go1", "go1_description/urdf/go1.urdf", &[]);
+    stands("solo12", "solo_description/robots/solo12.urdf", &[]);
 }

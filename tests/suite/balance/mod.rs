@@ -9,4 +9,5 @@ mod limited;
 mod orientation;
 mod supervisor;
 mod vectors;
+mod whole_body;
 mod workspace;

@@ -13,7 +13,7 @@ pub struct ContactPatch<T> {
     /// Centre, from the foot's reference point, m. Zero for an edge and a point.
     pub(super) center: Vector3<T>,
     /// Half the length along x, m.
-    pub(super) half_x: T,
+    pub(in crate::balance) half_x: T,
     /// Half the length along y, m.
     pub(super) half_y: T,
 }
@@ -44,6 +44,21 @@ impl<T: Real> ContactPatch<T> {
         Self { center: Vector3::zeros(), half_x: T::zero(), half_y: T::zero() }
     }
 
+    /// The same with its lengths times `share`, about its centre.
+    pub fn shrunk(&self, share: T) -> Self {
+        Self { half_x: self.half_x * share, half_y: self.half_y * share, ..*self }
+    }
+
+    /// The same in another precision.
+    pub fn rounded<U: Real>(&self) -> ContactPatch<U> {
+        let round = |x: T| U::of(x.to_f64());
+        ContactPatch {
+            center: self.center.map(round),
+            half_x: round(self.half_x),
+            half_y: round(self.half_y),
+        }
+    }
+
     /// Whether it has width and length.
     #[inline(always)]
     pub(super) fn is_sole(&self) -> bool {
@@ -52,7 +67,7 @@ impl<T: Real> ContactPatch<T> {
 
     /// Whether moments about the sole's x, y, z are unknowns.
     #[inline(always)]
-    pub(super) fn moments(&self) -> [bool; 3] {
+    pub fn moments(&self) -> [bool; 3] {
         let (x, y) = (self.half_x > T::zero(), self.half_y > T::zero());
         [y, x, x || y]
     }

@@ -82,6 +82,12 @@ impl<'a, T: Real, const FEET: usize, const JOINTS: usize> ContactProgram<'a, T, 
         Some(Self { feet, weights, world, split, least_norm, norm_squared })
     }
 
+    /// `w₀`.
+    #[inline(always)]
+    pub fn least_norm(&self) -> [Wrench<T>; FEET] {
+        self.least_norm
+    }
+
     /// The same around other wrenches that make the desired one: where no limit binds, they are the
     /// answer, and where one does, the distance is taken from them.
     #[inline(always)]

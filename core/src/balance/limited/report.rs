@@ -93,7 +93,7 @@ impl LimitSet {
         }
     }
 
-    pub(super) fn insert(&mut self, limit: ContactLimit) {
+    pub(in crate::balance) fn insert(&mut self, limit: ContactLimit) {
         self.0 |= Self::bit(limit);
     }
 

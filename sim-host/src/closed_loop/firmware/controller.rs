@@ -203,7 +203,7 @@ impl<const JOINTS: usize> Controller for FirmwareController<JOINTS> {
         let torques = self.exchange(state)?;
         self.stopped = torques.reason;
         if let (Some(tally), Some(limits)) = (&mut self.tally, &torques.limits) {
-            tally.count(&self.robot, self.time_s, limits);
+            tally.count_tick(&self.robot, self.time_s, limits);
         }
         Ok(Commanded {
             torques: torques.joint_torques.map(f64::from).to_vec(),

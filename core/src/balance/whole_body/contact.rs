@@ -1,0 +1,193 @@
+//! A foot that presses: where it is, and what its leg's joints do to hold it.
+//!
+//! # Notation
+//! Frame 1 (see the module above). `p` reference point, `R` frame 1 from sole axes, `s_k` the twist at
+//! frame 1's origin per rate of joint k; `P` picks the directions that the contact has.
+//! ```text
+//! J_k = P Rᵀ (s_k seen from p),    J_b X = P Rᵀ (X seen from p)
+//! J θ̈ + J_b X + b = a,   a = −k v    ⇒    θ̈ = θ̈₀ + J⁺ (a − b) − J⁺ J_b X          (1)
+//! ```
+//! with `b` the point's acceleration for joints at their posture's accelerations `θ̈₀` and a central body
+//! whose twist does not change; `v` the foot's velocity.
+
+use super::leg_inverse::{ByJoint, DIRECTIONS, leg_inverse};
+use super::robot::{Leg, MOST_LEG_JOINTS};
+use crate::Real;
+use crate::dynamics::BodyKinematics;
+use crate::spatial::{Twist, Wrench};
+use nalgebra::{Matrix3, Vector3};
+
+/// A pressing foot and its leg.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Contact<T> {
+    /// `R`
+    pub rotation: Matrix3<T>,
+    /// `p`, m.
+    pub position: Vector3<T>,
+    /// Velocities of the leg's joints.
+    pub joints: [usize; MOST_LEG_JOINTS],
+    pub count: usize,
+    /// `J⁺` by joint.
+    inverse: ByJoint<T>,
+    /// `−J⁺ J_b` of (1) by joint: what multiplies X.
+    pub per_base: [Wrench<T>; MOST_LEG_JOINTS],
+    /// `J` by joint.
+    columns: ByJoint<T>,
+    /// `a − b`
+    asked: [T; DIRECTIONS],
+    directions: [bool; DIRECTIONS],
+    /// `ε²`; zero where the leg is not near a singular posture.
+    pub damping: T,
+}
+
+/// What [`Contact::new`] reads.
+pub(super) struct Place<'a, T> {
+    /// World axes from frame 1; the world's origin is frame 1's.
+    pub central: &'a Matrix3<T>,
+    /// Of the foot's body.
+    pub body: &'a BodyKinematics<T>,
+    /// By the leg's joints, frame 1.
+    pub screws: [Twist<T>; MOST_LEG_JOINTS],
+}
+
+impl<T: Real> Contact<T> {
+    /// `None` for numbers that are not finite.
+    #[inline(always)]
+    pub fn new(leg: &Leg<T>, place: &Place<'_, T>, rest_rate: T, damping: T) -> Option<Self> {
+        let Place { central, body, screws } = place;
+        let from_body = central.tr_mul(&body.pose.rotation);
+        let moments = leg.foot.limits.patch.moments();
+        let [x, y, z] = moments;
+        let directions = [true, true, true, x, y, z];
+        let rotation = match moments {
+            [true, true, true] => from_body * leg.axes,
+            // The ground is level.
+            [false, false, false] => central.transpose(),
+            _ => edge_axes(
+                central,
+                &(from_body * leg.axes),
+                leg.foot.limits.patch.half_x > T::zero(),
+            ),
+        };
+        let r = leg.foot.reference;
+        let position = central.tr_mul(&(body.pose.position + body.pose.rotation * r));
+        // The point's velocity and acceleration in the body's axes, then in those of the sole.
+        let (v, a) = (body.velocity, body.acceleration);
+        let w = v.angular;
+        let velocity = v.linear + w.cross(&r);
+        let acceleration = a.linear + a.angular.cross(&r) + w.cross(&velocity);
+        let picked = |linear: Vector3<T>, angular: Vector3<T>| {
+            let (l, w) = (rotation.tr_mul(&linear), rotation.tr_mul(&angular));
+            pick(&directions, [l.x, l.y, l.z, w.x, w.y, w.z])
+        };
+        let bias = picked(from_body * acceleration, from_body * a.angular);
+        let creep = picked(from_body * velocity, from_body * w);
+        let mut asked = [T::zero(); DIRECTIONS];
+        for (asked, (bias, creep)) in asked.iter_mut().zip(bias.iter().zip(&creep)) {
+            *asked = -*creep * rest_rate - *bias;
+        }
+        let mut columns = [[T::zero(); DIRECTIONS]; MOST_LEG_JOINTS];
+        let mut scaled = columns;
+        let per_reach = T::one() / leg.reach;
+        for ((column, scaled), screw) in
+            columns.iter_mut().zip(&mut scaled).zip(screws).take(leg.count)
+        {
+            *column = picked(screw.linear + screw.angular.cross(&position), screw.angular);
+            let [x, y, z, a, b, c] = *column;
+            *scaled = [x * per_reach, y * per_reach, z * per_reach, a, b, c];
+        }
+        let found = leg_inverse(&scaled, leg.count, &directions, damping)?;
+        let inverse = found
+            .inverse
+            .map(|[x, y, z, a, b, c]| [x * per_reach, y * per_reach, z * per_reach, a, b, c]);
+        let mut contact = Self {
+            rotation,
+            position,
+            joints: leg.joints,
+            count: leg.count,
+            inverse,
+            per_base: [Wrench::zero(); MOST_LEG_JOINTS],
+            columns,
+            asked,
+            directions,
+            damping: found.damping,
+        };
+        for (inverse, row) in contact.inverse.iter().zip(&mut contact.per_base).take(leg.count) {
+            let w = Wrench::from_array(*inverse);
+            let w = Wrench { force: rotation * w.force, torque: rotation * w.torque };
+            *row = -w.shifted(position);
+        }
+        Some(contact)
+    }
+
+    /// `J⁺ (a − b)` of (1) by joint.
+    #[inline(always)]
+    pub fn correction(&self) -> [T; MOST_LEG_JOINTS] {
+        self.inverse
+            .map(|row| row.iter().zip(&self.asked).fold(T::zero(), |sum, (x, a)| sum + *x * *a))
+    }
+
+    /// The wrench (sole axes, about p) of the ground that would hold the leg against the torques `t` of
+    /// its joints: `J⁺ᵀ t`, in frame 1's axes.
+    #[inline(always)]
+    pub fn holding(&self, torques: &[T; MOST_LEG_JOINTS]) -> Wrench<T> {
+        let mut sum = [T::zero(); DIRECTIONS];
+        for (row, torque) in self.inverse.iter().zip(torques) {
+            for (sum, x) in sum.iter_mut().zip(row) {
+                *sum += *x * *torque;
+            }
+        }
+        let w = Wrench::from_array(sum);
+        Wrench { force: self.rotation * w.force, torque: self.rotation * w.torque }
+    }
+
+    /// What the foot does of itself where its leg cannot hold it: the acceleration in the contact's
+    /// directions, less the one asked for, at `x` and `joints` on top of the posture's accelerations.
+    /// Sole axes, m/s² and rad/s².
+    pub fn given_up(&self, x: Twist<T>, joints: &[T; MOST_LEG_JOINTS]) -> Twist<T> {
+        let linear = self.rotation.tr_mul(&(x.linear + x.angular.cross(&self.position)));
+        let angular = self.rotation.tr_mul(&x.angular);
+        let of_base = [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z];
+        let mut sum = pick(&self.directions, of_base);
+        for (sum, asked) in sum.iter_mut().zip(&self.asked) {
+            *sum -= *asked;
+        }
+        for (column, joint) in self.columns.iter().zip(joints) {
+            for (sum, x) in sum.iter_mut().zip(column) {
+                *sum += *x * *joint;
+            }
+        }
+        Twist::from_array(sum)
+    }
+}
+
+/// The directions that exist.
+#[inline(always)]
+fn pick<T: Real>(directions: &[bool; DIRECTIONS], mut all: [T; DIRECTIONS]) -> [T; DIRECTIONS] {
+    for (x, exists) in all.iter_mut().zip(directions) {
+        if !exists {
+            *x = T::zero();
+        }
+    }
+    all
+}
+
+/// Axes of an edge along the sole's x (or y) on level ground: that axis as it is, and a normal that is as
+/// upright as it can be; the sole's own where the edge stands on its end.
+#[inline(always)]
+fn edge_axes<T: Real>(central: &Matrix3<T>, sole: &Matrix3<T>, along_x: bool) -> Matrix3<T> {
+    let up = Vector3::new(central.m31, central.m32, central.m33);
+    let edge: Vector3<T> = if along_x { sole.column(0).into() } else { sole.column(1).into() };
+    let across = up.cross(&edge);
+    let length = across.norm();
+    if !(length > T::of(0.1)) {
+        return *sole;
+    }
+    let across = across / length;
+    let normal = edge.cross(&across);
+    if along_x {
+        Matrix3::from_columns(&[edge, across, normal])
+    } else {
+        Matrix3::from_columns(&[-across, edge, normal])
+    }
+}

@@ -1,0 +1,44 @@
+//! A controller for any legged robot: legs of three to seven revolute or prismatic joints on feet that
+//! are points, edges or soles, and other limbs that move.
+//!
+//! ```text
+//! state ─► posture ─► feet ─► joints of pressing legs eliminated ─► P X + z = Σ G_i w_i
+//!                              │                                          │
+//!                              └────────► torques ◄── wrenches within limits (quadratic program)
+//! ```
+//! # What is asked for
+//! - The central body follows a [`Reference`](super::Reference), as in [`tick`](super::tick).
+//! - A pressing foot keeps still: its leg's joints follow from that, in the directions that its contact
+//!   has. A leg with more joints uses the rest for its posture; near a singular posture (a straight knee)
+//!   the direction that is lost is given up, without a jump.
+//! - All other joints track a posture. Their inertia is in the dynamics, their torques in the command.
+//! - Ground and motors, those of waist and arms as well, are limits of [`WholeBodyProgram`]'s rows. While
+//!   none binds, the answer is the least-norm split of what each leg does not carry by itself; with legs
+//!   of six joints and soles this is [`tick`](super::tick)'s, to round-off.
+//!
+//! # What it is told
+//! A [`Tree`](crate::model::Tree) whose first body floats, its feet ([`WholeBodyFoot`]), in which
+//! [`WholeBody`] finds the legs, and [`WholeBodySettings`] (with documented starting values by mass and
+//! height).
+//!
+//! A leg that swings would bring the acceleration of its foot as unknowns in the place of its wrench;
+//! here it tracks its posture.
+//!
+//! [`WholeBodyProgram`]: program::WholeBodyProgram
+
+mod contact;
+mod fault;
+mod leg_inverse;
+mod program;
+mod reduced;
+mod report;
+mod robot;
+mod settings;
+mod tick;
+
+pub use fault::WholeBodyRobotFault;
+pub use program::WholeBodyLimit;
+pub use report::{WholeBodyCommand, WholeBodyMemory, WholeBodyReport, WholeBodyState};
+pub use robot::{MOST_JOINTS, MOST_LEG_JOINTS, WholeBody, WholeBodyFoot};
+pub use settings::WholeBodySettings;
+pub use tick::{WholeBodyController, whole_body_tick};

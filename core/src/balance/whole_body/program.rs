@@ -1,0 +1,231 @@
+//! The ground's wrenches on the feet as a quadratic program, with the torques of all joints.
+//!
+//! The objective and the contacts' rows are those of [`ContactProgram`], whose feet have no joints here
+//! and carry nothing: its unknowns are then what the ground gives. Torques are rows over all feet, as
+//! those of arms and waist depend on the acceleration that the feet make:
+//! ```text
+//! τ_k = τ_k(0) + Σ_i t_ki · w_i,    t_ki = y_k − s_k (foot i outboard of k) or y_k,   Pᵀ y_k = B_k
+//! ```
+//! | row | limit |
+//! |---|---|
+//! | 0 … 127 | of feet, 32 numbers each |
+//! | 128 + 2k, 129 + 2k | `limit − τ_k`, `limit + τ_k` of the joint with velocity 6 + k |
+
+use super::reduced::Reduced;
+use super::robot::{BodyJoint, WholeBody};
+use crate::Real;
+use crate::balance::{ContactLimit, ContactProgram};
+use crate::qp::{ActiveRows, Program, ProgramCost, Search, Work};
+use crate::spatial::{Twist, Wrench};
+use nalgebra::Vector3;
+
+/// Number of the first row of a torque.
+const TORQUES: u8 = 128;
+/// Velocities of the central body.
+const BASE: usize = 6;
+
+/// A limit of a robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WholeBodyLimit {
+    /// Of a foot's contact.
+    Foot {
+        /// Number of the foot.
+        foot: usize,
+        /// Which; never a torque.
+        limit: ContactLimit,
+    },
+    /// The torque (or force) of a joint.
+    Torque {
+        /// Index of its velocity.
+        velocity: usize,
+    },
+}
+
+/// The program of one tick.
+pub(super) struct WholeBodyProgram<'a, T, const FEET: usize, const NV: usize> {
+    pub contacts: ContactProgram<'a, T, FEET, 0>,
+    pub positions: &'a [Vector3<T>; FEET],
+    pub reduced: &'a Reduced<T, NV>,
+    pub robot: &'a WholeBody<T, FEET, NV>,
+    /// Greatest torques.
+    pub torques: &'a [T; NV],
+}
+
+/// A row's normal.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Normal<N, T, const FEET: usize> {
+    /// On one foot.
+    OnFoot(N),
+    /// On all of them, each about its reference point.
+    OnAll([Twist<T>; FEET]),
+}
+
+/// What the contacts' program calls its own.
+type Contacts<'a, T, const FEET: usize> = ContactProgram<'a, T, FEET, 0>;
+
+impl<T: Real, const FEET: usize, const NV: usize> WholeBodyProgram<'_, T, FEET, NV> {
+    /// `G_i w_i`.
+    #[inline(always)]
+    pub fn on_base(&self, x: &[Wrench<T>; FEET]) -> [Wrench<T>; FEET] {
+        let mut all = [Wrench::zero(); FEET];
+        for (to, (w, p)) in all.iter_mut().zip(x.iter().zip(self.positions)) {
+            *to = w.shifted(*p);
+        }
+        all
+    }
+
+    /// X of the central body under wrenches about frame 1's origin.
+    #[inline(always)]
+    pub fn acceleration(&self, on_base: &[Wrench<T>; FEET]) -> Twist<T> {
+        self.reduced.acceleration(on_base.iter().fold(Wrench::zero(), |sum, w| sum + *w))
+    }
+
+    /// Which limit a row is.
+    pub fn limit_of(&self, row: u8) -> WholeBodyLimit {
+        match row.checked_sub(TORQUES) {
+            Some(pair) => WholeBodyLimit::Torque { velocity: BASE + usize::from(pair / 2) },
+            None => {
+                let (foot, limit) = self.contacts.limit_of(row);
+                WholeBodyLimit::Foot { foot, limit }
+            }
+        }
+    }
+
+    /// The limit that costs most, with its relief: by how much the objective falls per 100 % by which it
+    /// is widened.
+    pub fn worst<const K: usize>(
+        &self,
+        x: &[Wrench<T>; FEET],
+        active: &ActiveRows<T, K>,
+    ) -> Option<(WholeBodyLimit, T)> {
+        // Rows of torques are of no foot, and passed over.
+        let of_feet = self.contacts.reason(x, active).map(|reason| {
+            let limit = WholeBodyLimit::Foot { foot: reason.foot, limit: reason.limit };
+            (limit, reason.relief)
+        });
+        active.iter().fold(of_feet, |most, (row, multiplier)| {
+            let WholeBodyLimit::Torque { velocity } = self.limit_of(row) else { return most };
+            let limit = self.torques.get(velocity).copied().unwrap_or(T::zero());
+            let relief = multiplier * limit;
+            match most {
+                Some((_, greatest)) if greatest >= relief => most,
+                _ => Some((WholeBodyLimit::Torque { velocity }, relief)),
+            }
+        })
+    }
+
+    /// Joints by velocity, with their limit and the number of the first of their two rows.
+    #[inline(always)]
+    fn joints(&self) -> impl Iterator<Item = (usize, &BodyJoint, T, u8)> {
+        let all = self.robot.joints.iter().zip(self.torques).enumerate().skip(BASE);
+        all.zip((TORQUES..=u8::MAX).step_by(2)).filter_map(|((velocity, (joint, limit)), row)| {
+            Some((velocity, joint.as_ref()?, *limit, row))
+        })
+    }
+}
+
+impl<'a, T: Real, const FEET: usize, const NV: usize> Program<T>
+    for WholeBodyProgram<'a, T, FEET, NV>
+{
+    type Point = [Wrench<T>; FEET];
+    type Normal = Normal<<Contacts<'a, T, FEET> as Program<T>>::Normal, T, FEET>;
+    type Factor = <Contacts<'a, T, FEET> as Program<T>>::Factor;
+
+    const COST: ProgramCost = {
+        let contacts = <Contacts<'a, T, FEET> as Program<T>>::COST;
+        let (feet, joints) = (FEET as Work, NV.saturating_sub(BASE) as Work);
+        ProgramCost {
+            factor: contacts.factor,
+            response: contacts.response,
+            row: 60 + 18 * feet,
+            product: 6 * feet,
+            scan: contacts.scan + 6 * feet + 36 + 12 * joints,
+        }
+    };
+
+    #[inline(always)]
+    fn minimum(&self) -> [Wrench<T>; FEET] {
+        self.contacts.minimum()
+    }
+
+    #[inline(always)]
+    fn zero(&self) -> [Wrench<T>; FEET] {
+        self.contacts.zero()
+    }
+
+    #[inline(always)]
+    fn moved(&self, x: &[Wrench<T>; FEET], by: &[Wrench<T>; FEET]) -> [Wrench<T>; FEET] {
+        self.contacts.moved(x, by)
+    }
+
+    #[inline(always)]
+    fn is_finite(&self, x: &[Wrench<T>; FEET]) -> bool {
+        self.contacts.is_finite(x)
+    }
+
+    #[inline(always)]
+    fn factor(&self) -> Option<Self::Factor> {
+        self.contacts.factor()
+    }
+
+    #[inline(always)]
+    fn response(&self, factor: &Self::Factor, gradient: &[Wrench<T>; FEET]) -> [Wrench<T>; FEET] {
+        self.contacts.response(factor, gradient)
+    }
+
+    #[inline(always)]
+    fn row(&self, row: u8) -> Option<(Self::Normal, T)> {
+        let Some(pair) = row.checked_sub(TORQUES) else {
+            let (normal, bound) = self.contacts.row(row)?;
+            return Some((Normal::OnFoot(normal), bound));
+        };
+        let velocity = BASE + usize::from(pair / 2);
+        let joint = self.robot.joints.get(velocity)?.as_ref()?;
+        let limit = *self.torques.get(velocity)?;
+        let nothing = [Wrench::zero(); FEET];
+        let free = self.reduced.torque(velocity, self.acceleration(&nothing), &nothing);
+        // limit − τ ≥ 0, or limit + τ ≥ 0.
+        let sign = if pair % 2 == 0 { -T::one() } else { T::one() };
+        let [outboard, other] = self.reduced.torque_per_wrench(velocity)?;
+        let mut normal = [Twist::zero(); FEET];
+        for (foot, (normal, p)) in normal.iter_mut().zip(self.positions).enumerate() {
+            let twist = if joint.feet & (1 << (foot & 7)) != 0 { outboard } else { other };
+            let linear = twist.linear + twist.angular.cross(p);
+            *normal = Twist { linear, angular: twist.angular } * sign;
+        }
+        Some((Normal::OnAll(normal), -limit - free * sign))
+    }
+
+    #[inline(always)]
+    fn product(&self, normal: &Self::Normal, x: &[Wrench<T>; FEET]) -> T {
+        match normal {
+            Normal::OnFoot(normal) => self.contacts.product(normal, x),
+            Normal::OnAll(all) => {
+                all.iter().zip(x).fold(T::zero(), |sum, (twist, w)| sum + twist.power(*w))
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn accumulate(&self, gradient: &mut [Wrench<T>; FEET], normal: &Self::Normal, multiplier: T) {
+        match normal {
+            Normal::OnFoot(normal) => self.contacts.accumulate(gradient, normal, multiplier),
+            Normal::OnAll(all) => {
+                for (gradient, twist) in gradient.iter_mut().zip(all) {
+                    *gradient += Wrench { force: twist.linear, torque: twist.angular } * multiplier;
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn scan(&self, x: &[Wrench<T>; FEET], search: &mut Search<'_, T>) {
+        self.contacts.scan(x, search);
+        let on_base = self.on_base(x);
+        let acceleration = self.acceleration(&on_base);
+        for (velocity, _, limit, row) in self.joints() {
+            let torque = self.reduced.torque(velocity, acceleration, &on_base);
+            search.offer_pair(limit, torque, [row, row.wrapping_add(1)]);
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! What comes out of a tick.
+
+use super::WholeBodyLimit;
+use crate::Real;
+use crate::balance::LimitSet;
+use crate::qp::{ActiveRows, Status, Work};
+use crate::spatial::{Quaternion, Twist, Wrench};
+use nalgebra::Vector3;
+
+/// Limits that may bind at once.
+pub(super) const ROWS: usize = 24;
+
+/// The measured state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WholeBodyState<T, const NQ: usize, const NV: usize> {
+    /// Of the tree: position of the central body's centre of mass (m), its unit quaternion (world from
+    /// body, scalar first), then joints in the tree's order (rad, m).
+    pub positions: [T; NQ],
+    /// Of the tree: body twist of the central body (m/s, rad/s), then rates of joints.
+    pub velocities: [T; NV],
+}
+
+/// The limits that bound at the last tick, from which the next one begins. It belongs to the caller,
+/// one for each robot; a new one is a cold start, dearer and to the same answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WholeBodyMemory<T> {
+    pub(super) active: ActiveRows<T, ROWS>,
+}
+
+impl<T: Real> WholeBodyMemory<T> {
+    /// Before the first tick.
+    pub fn new() -> Self {
+        Self { active: ActiveRows::new() }
+    }
+
+    /// Rows of the program and their multipliers, to be kept.
+    pub fn rows(&self) -> impl Iterator<Item = (u8, T)> + '_ {
+        self.active.iter()
+    }
+
+    /// As [`rows`](Self::rows) gave it.
+    pub fn of(rows: impl IntoIterator<Item = (u8, T)>) -> Self {
+        Self { active: ActiveRows::of(rows) }
+    }
+}
+
+impl<T: Real> Default for WholeBodyMemory<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Torques, and what they come from.
+#[derive(Clone, Copy, Debug)]
+pub struct WholeBodyCommand<T, const FEET: usize, const NV: usize> {
+    /// By velocity, N·m or N; zero for the central body and for bodies that do not hang from it.
+    pub torques: [T; NV],
+    /// What the ground gives each foot about its reference point, in the central body's frame.
+    pub foot_wrenches: [Wrench<T>; FEET],
+    /// The sum of these that the reference asks for, about the central body's centre of mass, in its
+    /// frame. With it the body would accelerate as wanted.
+    pub desired_wrench: Wrench<T>,
+    /// Accelerations by velocity that the torques and wrenches make; of the central body the component
+    /// derivative of its twist.
+    pub accelerations: [T; NV],
+    /// `e_p`, world frame, m.
+    pub position_error: Vector3<T>,
+    /// `q_e`, world frame, scalar part not negative.
+    pub orientation_error: Quaternion<T>,
+    /// What binds, and what is given up.
+    pub limits: WholeBodyReport<T, FEET>,
+}
+
+/// What binds in a tick, by how much, and what is given up for it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WholeBodyReport<T, const FEET: usize> {
+    /// How the distribution ended; solved where nothing binds.
+    pub status: Status,
+    /// The limits of each foot that bind.
+    pub feet: [LimitSet; FEET],
+    /// Bit k: the torque of the joint with velocity 6 + k binds.
+    pub torques: u64,
+    /// The limit that costs most, and by how much the objective would fall per 100 % by which it is
+    /// widened; `None` where nothing binds.
+    pub worst: Option<(WholeBodyLimit, T)>,
+    /// The limit that the wrenches break most, and by how much (N, N·m), in what is solved by giving way
+    /// or because the work was spent; `None` where none is by more than the tolerance. Torques are cut in
+    /// any case.
+    pub broken: Option<(WholeBodyLimit, T)>,
+    /// Desired wrench less the one that is made, in the central body's frame (N, N·m).
+    pub given_up: Wrench<T>,
+    /// Feet whose leg is near a singular posture: the acceleration that the leg cannot keep from the
+    /// foot, in sole axes (m/s², rad/s²), zero for other feet.
+    pub singular: [Option<Twist<T>>; FEET],
+    /// Limits taken in and let go.
+    pub changes: u32,
+    /// Multiplications spent on the distribution.
+    pub work: Work,
+}
+
+impl<T: Real, const FEET: usize> WholeBodyReport<T, FEET> {
+    /// Of a tick in which nothing binds.
+    pub(super) fn free() -> Self {
+        Self {
+            status: Status::Solved,
+            feet: [LimitSet::default(); FEET],
+            torques: 0,
+            worst: None,
+            broken: None,
+            given_up: Wrench::zero(),
+            singular: [None; FEET],
+            changes: 0,
+            work: 0,
+        }
+    }
+
+    /// Whether some limit binds.
+    pub fn is_limited(&self) -> bool {
+        self.worst.is_some() || self.status != Status::Solved
+    }
+
+    pub(super) fn insert(&mut self, limit: WholeBodyLimit) {
+        match limit {
+            WholeBodyLimit::Foot { foot, limit } => {
+                if let Some(set) = self.feet.get_mut(foot) {
+                    set.insert(limit);
+                }
+            }
+            WholeBodyLimit::Torque { velocity } => {
+                let bit = velocity.checked_sub(6).and_then(|k| 1_u64.checked_shl(k as u32));
+                self.torques |= bit.unwrap_or(0);
+            }
+        }
+    }
+}

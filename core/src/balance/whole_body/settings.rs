@@ -1,0 +1,90 @@
+//! Gains, postures and limits.
+
+use super::WholeBodyRobotFault;
+use crate::Real;
+use crate::balance::{ContactWeights, Gains};
+use crate::qp::{Settings, Work};
+use crate::spatial::SymmetricMatrix3;
+
+/// What a robot is to do beside its reference, and what its motors can. Entries of joints are by
+/// velocity; those of the central body (the first six) are not read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WholeBodySettings<T, const NV: usize> {
+    /// Of the central body.
+    pub gains: Gains<T>,
+    /// Angles (rad, or m) which joints track that no contact needs: other limbs, legs in the air, and
+    /// what is free in a leg of more joints than its contact has directions.
+    pub posture: [T; NV],
+    /// With these gains: from angle (1/s²) and from rate (1/s) to acceleration.
+    pub posture_gains: [T; 2],
+    /// Greatest torques (N·m) or forces (N) of the joints, in either sense; may be infinite.
+    pub torques: [T; NV],
+    /// Rate at which feet that creep come to rest, 1/s.
+    pub rest_rate: T,
+    /// What is given up first where not all can be had.
+    pub weights: ContactWeights<T>,
+    /// How limits give way, and what a tick may spend.
+    pub limits: Settings<T>,
+    /// `ε₀`: damping of a leg in a singular posture, in units of its reach.
+    pub damping: T,
+}
+
+impl<T: Real, const NV: usize> WholeBodySettings<T, NV> {
+    /// Multiplications that a tick may spend on limits, with room for `feet` feet: what some twenty
+    /// limits taken in and let go cost.
+    pub const fn most_work(feet: usize) -> Work {
+        let joints = NV.saturating_sub(6);
+        // A row, its response, its products with the others, and a test of all.
+        let change = 250 + 150 * feet + 12 * joints;
+        20 * change as Work
+    }
+
+    /// Documented starting values for a robot whose central body stands at the height `z` (m) above its
+    /// feet under gravity `g` (m/s²), by `ω = √(g/z)`: body `10 ω²` and `5.2 ω`, posture the same, feet
+    /// to rest at `5.8 ω`, a moment in a force's weight at `z`. Posture zero, torques without limit.
+    pub fn scaled(height: T, gravity: T, feet: usize) -> Self {
+        let frequency = (gravity / height).sqrt();
+        let stiffness = frequency * frequency * T::of(10.0);
+        let damping = frequency * T::of(5.2);
+        let standing = ContactWeights::standing();
+        let [x, y, z, tilt, pitch, yaw] = standing.task;
+        let per_length = T::one() / height;
+        Self {
+            gains: Gains {
+                position: SymmetricMatrix3::scalar(stiffness),
+                velocity: SymmetricMatrix3::scalar(damping),
+                orientation: SymmetricMatrix3::scalar(stiffness * T::of(2.0)),
+                angular_velocity: SymmetricMatrix3::scalar(damping),
+            },
+            posture: [T::zero(); NV],
+            posture_gains: [stiffness, damping],
+            torques: [T::of(f64::from(f32::MAX)); NV],
+            rest_rate: frequency * T::of(5.8),
+            weights: ContactWeights {
+                task: [x, y, z, tilt * per_length, pitch * per_length, yaw * per_length],
+                norm_length: height,
+                ..standing
+            },
+            limits: Settings { work: Self::most_work(feet), ..Settings::new(T::of(1e-3)) },
+            damping: T::of(0.01),
+        }
+    }
+
+    /// Whether every number can be.
+    ///
+    /// # Errors
+    /// [`WholeBodyRobotFault::Setting`], [`WholeBodyRobotFault::Gain`].
+    pub fn check(&self) -> Result<(), WholeBodyRobotFault> {
+        for (velocity, (torque, posture)) in self.torques.iter().zip(&self.posture).enumerate() {
+            // NaN compares as false.
+            if !(*torque >= T::zero() && posture.is_finite()) {
+                return Err(WholeBodyRobotFault::Setting { velocity });
+            }
+        }
+        let weights = &self.weights;
+        let gains = [self.rest_rate, self.damping, weights.regularization, weights.norm_length];
+        let mut all = self.posture_gains.iter().chain(&gains).chain(&weights.task);
+        let is_good = all.all(|x| *x >= T::zero() && x.is_finite());
+        if is_good { Ok(()) } else { Err(WholeBodyRobotFault::Gain) }
+    }
+}

@@ -1,0 +1,333 @@
+//! One tick.
+
+use super::contact::{Contact, Place};
+use super::program::WholeBodyProgram;
+use super::reduced::Reduced;
+use super::report::WholeBodyReport;
+use super::robot::{MOST_LEG_JOINTS, WholeBody};
+use super::{WholeBodyCommand, WholeBodyMemory, WholeBodySettings, WholeBodyState};
+use crate::Real;
+use crate::balance::leg_kinematics::unit;
+use crate::balance::tick::check_reference;
+use crate::balance::{
+    CentralBody, ContactFoot, ContactProgram, Fault, Input, Reference, desired_acceleration,
+};
+use crate::dynamics::{
+    BodyKinematics, Kinematics, forward_kinematics, inverse_dynamics, joint_poses, mass_matrix,
+};
+use crate::model::{Axis, JointKind, Tree};
+use crate::qp::{Settings, solve};
+use crate::spatial::{Quaternion, Twist, Wrench};
+use nalgebra::{Matrix3, Vector3};
+
+/// All constants of one controller.
+#[derive(Clone, Copy, Debug)]
+pub struct WholeBodyController<
+    'a,
+    T,
+    const N: usize,
+    const NQ: usize,
+    const NV: usize,
+    const FEET: usize,
+> {
+    /// Bodies and joints.
+    pub tree: &'a Tree<T, N, NQ, NV>,
+    /// Its legs, found in the same tree.
+    pub robot: &'a WholeBody<T, FEET, NV>,
+    /// Gains, postures, limits.
+    pub settings: &'a WholeBodySettings<T, NV>,
+}
+
+/// From a measured state to the torques of all joints; `contacts` says which feet touch the ground (all,
+/// where nobody knows). A foot that does not carries nothing, and its leg tracks its posture.
+///
+/// # Errors
+/// A [`Fault`]: an input that is not finite, a quaternion that is none, numbers so large that they
+/// overflow, or a robot that cannot be held ([`Fault::NotHeld`]). A limit that binds and a leg in a
+/// singular posture are no faults: [`WholeBodyCommand::limits`] has them.
+///
+/// # Cost
+/// Kinematics, inverse dynamics and mass matrix of the tree, about 2000 multiplications a foot, and at
+/// most `settings.limits.work` on limits. No allocation, no panic.
+#[inline]
+pub fn whole_body_tick<
+    T: Real,
+    const N: usize,
+    const NQ: usize,
+    const NV: usize,
+    const FEET: usize,
+>(
+    controller: &WholeBodyController<'_, T, N, NQ, NV, FEET>,
+    state: &WholeBodyState<T, NQ, NV>,
+    reference: &Reference<T>,
+    contacts: &[bool; FEET],
+    memory: &mut WholeBodyMemory<T>,
+) -> Result<WholeBodyCommand<T, FEET, NV>, Fault> {
+    let WholeBodyController { tree, robot, settings } = controller;
+    let central = checked(tree, state, reference)?;
+    let position = first3(&state.positions);
+    let desired = desired_acceleration(&settings.gains, &central, position, reference)?;
+
+    // The posture's accelerations, and what they make of the feet. The world's origin is frame 1's.
+    let mut positions = state.positions;
+    positions.iter_mut().take(3).for_each(|x| *x = T::zero());
+    let poses = joint_poses(tree, &positions).map_err(|_| Fault::NotUnit(Input::Orientation))?;
+    let mut accelerations = posture(robot, settings, state);
+    let kinematics = forward_kinematics(tree, &poses, &state.velocities, &accelerations);
+    let screws = screws(tree, robot, &kinematics, &central.rotation);
+    let mut pressing = [None; FEET];
+    for ((place, leg), touches) in pressing.iter_mut().zip(&robot.legs).zip(contacts) {
+        let Some(leg) = leg.as_ref().filter(|_| *touches) else { continue };
+        let body = kinematics.get(leg.foot.body).ok_or(Fault::NotHeld)?;
+        let of_leg = leg.joints.map(|joint| screws.get(joint).copied().unwrap_or(Twist::zero()));
+        let from = Place { central: &central.rotation, body, screws: of_leg };
+        let contact = Contact::new(leg, &from, settings.rest_rate, settings.damping);
+        let contact = contact.ok_or(Fault::Overflow)?;
+        for (joint, more) in contact.joints.iter().zip(contact.correction()).take(contact.count) {
+            if let Some(to) = accelerations.get_mut(*joint) {
+                *to += more;
+            }
+        }
+        *place = Some((contact, leg));
+    }
+    let legs = pressing.each_ref().map(|foot| foot.as_ref().map(|(contact, _)| *contact));
+    let bias = inverse_dynamics(tree, &poses, &state.velocities, &accelerations, None);
+    let masses = mass_matrix(tree, &poses);
+    if !bias.iter().chain(masses.as_flattened()).all(|x| x.is_finite()) {
+        return Err(Fault::Overflow);
+    }
+    let reduced = Reduced::new(robot, &legs, &masses, bias, screws).ok_or(Fault::NotHeld)?;
+
+    let desired_wrench = reduced.wrench(desired.x);
+    let mut command = WholeBodyCommand {
+        torques: [T::zero(); NV],
+        foot_wrenches: [Wrench::zero(); FEET],
+        desired_wrench,
+        accelerations,
+        position_error: desired.position_error,
+        orientation_error: desired.orientation_error,
+        limits: WholeBodyReport::free(),
+    };
+    let mut positions = [Vector3::zeros(); FEET];
+    let mut feet = [None; FEET];
+    for ((foot, place), position) in feet.iter_mut().zip(&pressing).zip(&mut positions) {
+        if let Some((contact, leg)) = place {
+            *position = contact.position;
+            *foot = Some(ContactFoot {
+                rotation: contact.rotation,
+                position: contact.position,
+                joints: [],
+                carried: Wrench::zero(),
+                limits: &leg.foot.limits,
+            });
+        }
+    }
+    let (on_base, x) = if feet.iter().any(Option::is_some) {
+        // The split of what is left when each foot carries its own leg.
+        let carried = carried(&reduced, &legs, desired.x);
+        let rest = carried
+            .iter()
+            .zip(&positions)
+            .fold(desired_wrench, |rest, (w, p)| rest - w.shifted(*p));
+        let weights = &settings.weights;
+        let shared = ContactProgram::new(&feet, weights, &central.rotation, rest);
+        let shared = shared.ok_or(Fault::Overflow)?;
+        let mut wrenches = carried;
+        for (w, more) in wrenches.iter_mut().zip(shared.least_norm()) {
+            *w += more;
+        }
+        let contacts = shared.around(wrenches);
+        let program = WholeBodyProgram {
+            contacts,
+            positions: &positions,
+            reduced: &reduced,
+            robot,
+            torques: &settings.torques,
+        };
+        within(&program, &settings.limits, memory, &mut command)?;
+        let on_base = program.on_base(&command.foot_wrenches);
+        (on_base, program.acceleration(&on_base))
+    } else {
+        *memory = WholeBodyMemory::new();
+        ([Wrench::zero(); FEET], reduced.acceleration(Wrench::zero()))
+    };
+    command.limits.given_up = on_base.iter().fold(desired_wrench, |rest, w| rest - *w);
+    let of_base = x.to_array();
+    for (to, x) in command.accelerations.iter_mut().zip(of_base) {
+        *to = x;
+    }
+    for (number, contact) in legs.iter().enumerate() {
+        let Some(contact) = contact else { continue };
+        let mut moved = contact.correction();
+        for ((moved, row), joint) in moved.iter_mut().zip(contact.per_base).zip(contact.joints) {
+            let more = x.power(row);
+            *moved += more;
+            if let Some(to) = command.accelerations.get_mut(joint).filter(|_| more != T::zero()) {
+                *to += more;
+            }
+        }
+        if contact.damping > T::zero()
+            && let Some(place) = command.limits.singular.get_mut(number)
+        {
+            *place = Some(contact.given_up(x, &moved));
+        }
+    }
+    let motors = command.torques.iter_mut().zip(&robot.joints).zip(&settings.torques);
+    for (velocity, ((torque, joint), limit)) in motors.enumerate() {
+        if joint.is_some() {
+            let asked = reduced.torque(velocity, x, &on_base);
+            if !asked.is_finite() {
+                return Err(Fault::Overflow);
+            }
+            *torque = asked.max(-*limit).min(*limit);
+        }
+    }
+    Ok(command)
+}
+
+/// The wrenches within limits, and what is reported of them.
+#[inline(never)]
+fn within<T: Real, const FEET: usize, const NV: usize>(
+    program: &WholeBodyProgram<'_, T, FEET, NV>,
+    settings: &Settings<T>,
+    memory: &mut WholeBodyMemory<T>,
+    command: &mut WholeBodyCommand<T, FEET, NV>,
+) -> Result<(), Fault> {
+    let active = &mut memory.active;
+    let solution = solve(program, active, settings).map_err(|_| Fault::Overflow)?;
+    command.foot_wrenches = solution.x;
+    let report = &mut command.limits;
+    report.status = solution.status;
+    report.worst = program.worst(&solution.x, active);
+    report.changes = solution.changes;
+    report.work = solution.work;
+    for (row, _) in active.iter() {
+        report.insert(program.limit_of(row));
+    }
+    report.broken = solution.violation.map(|broken| (program.limit_of(broken.row), broken.amount));
+    Ok(())
+}
+
+/// What the ground gives each foot so that its leg carries itself at the acceleration `x`.
+#[inline(always)]
+fn carried<T: Real, const FEET: usize, const NV: usize>(
+    reduced: &Reduced<T, NV>,
+    contacts: &[Option<Contact<T>>; FEET],
+    x: Twist<T>,
+) -> [Wrench<T>; FEET] {
+    let nothing = [Wrench::zero(); FEET];
+    contacts.each_ref().map(|contact| {
+        let Some(contact) = contact else { return Wrench::zero() };
+        let mut torques = [T::zero(); MOST_LEG_JOINTS];
+        for (torque, joint) in torques.iter_mut().zip(contact.joints).take(contact.count) {
+            *torque = reduced.torque(joint, x, &nothing);
+        }
+        contact.holding(&torques)
+    })
+}
+
+/// What a joint does that is free to.
+#[inline(always)]
+fn posture<T: Real, const FEET: usize, const NQ: usize, const NV: usize>(
+    robot: &WholeBody<T, FEET, NV>,
+    settings: &WholeBodySettings<T, NV>,
+    state: &WholeBodyState<T, NQ, NV>,
+) -> [T; NV] {
+    let [stiffness, damping] = settings.posture_gains;
+    let mut accelerations = [T::zero(); NV];
+    let all = robot.joints.iter().zip(&settings.posture).zip(&state.velocities);
+    for (to, ((joint, wanted), rate)) in accelerations.iter_mut().zip(all) {
+        let angle = joint.and_then(|joint| state.positions.get(joint.coordinate));
+        if let Some(angle) = angle {
+            *to = (*wanted - *angle) * stiffness - *rate * damping;
+        }
+    }
+    accelerations
+}
+
+/// Twist at frame 1's origin per rate of each joint that moves a foot, frame 1's axes.
+#[inline(always)]
+fn screws<T: Real, const N: usize, const NQ: usize, const NV: usize, const FEET: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    robot: &WholeBody<T, FEET, NV>,
+    kinematics: &Kinematics<T, N>,
+    central: &Matrix3<T>,
+) -> [Twist<T>; NV] {
+    let mut screws = [Twist::zero(); NV];
+    for (screw, joint) in screws.iter_mut().zip(&robot.joints) {
+        let Some(joint) = joint.as_ref().filter(|joint| joint.feet != 0) else { continue };
+        let (Some(node), Some(body)) = (tree.nodes.get(joint.node), kinematics.get(joint.node))
+        else {
+            continue;
+        };
+        let BodyKinematics { pose, .. } = body;
+        let axes = match &node.body_rotation {
+            None => pose.rotation,
+            Some(r) => pose.rotation * r.transpose(),
+        };
+        let (axis, slides) = match node.kind {
+            JointKind::Revolute(axis) => (axis, false),
+            JointKind::Prismatic(axis) => (axis, true),
+            _ => continue,
+        };
+        let along: Vector3<T> = match axis {
+            Axis::X => axes.column(0).into(),
+            Axis::Y => axes.column(1).into(),
+            Axis::Z => axes.column(2).into(),
+        };
+        let along = central.tr_mul(&if node.is_reversed { -along } else { along });
+        *screw = if slides {
+            Twist { linear: along, angular: Vector3::zeros() }
+        } else {
+            let point = central.tr_mul(&(pose.position - axes * node.center));
+            Twist { linear: point.cross(&along), angular: along }
+        };
+    }
+    screws
+}
+
+/// Alg. 4.1, of inputs that can be.
+#[inline(always)]
+fn checked<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    state: &WholeBodyState<T, NQ, NV>,
+    reference: &Reference<T>,
+) -> Result<CentralBody<T>, Fault> {
+    let WholeBodyState { positions, velocities } = state;
+    for (k, x) in positions.iter().enumerate() {
+        if !x.is_finite() {
+            return Err(Fault::NotFinite(match k {
+                0..3 => Input::Position,
+                3..7 => Input::Orientation,
+                _ => Input::Coordinate(k),
+            }));
+        }
+    }
+    for (k, x) in velocities.iter().enumerate() {
+        if !x.is_finite() {
+            let input = if k < 6 { Input::Velocity } else { Input::Rate(k) };
+            return Err(Fault::NotFinite(input));
+        }
+    }
+    check_reference(reference)?;
+    let mut q = [T::zero(); 4];
+    for (to, x) in q.iter_mut().zip(positions.iter().skip(3)) {
+        *to = *x;
+    }
+    let orientation = unit(Quaternion::from_array(q)).ok_or(Fault::NotUnit(Input::Orientation))?;
+    let rotation = orientation.to_matrix();
+    let mut v = [T::zero(); 6];
+    for (to, x) in v.iter_mut().zip(velocities) {
+        *to = *x;
+    }
+    let velocity = Twist::from_array(v);
+    let gravity = rotation.tr_mul(&tree.gravity);
+    Ok(CentralBody { rotation, orientation, velocity, gravity })
+}
+
+fn first3<T: Real, const NQ: usize>(positions: &[T; NQ]) -> Vector3<T> {
+    match positions.first_chunk() {
+        Some([x, y, z]) => Vector3::new(*x, *y, *z),
+        None => Vector3::zeros(),
+    }
+}
