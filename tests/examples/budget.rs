@@ -70,7 +70,7 @@ fn traced(scene: &Scene, trace: &str) -> Result<(), Box<dyn std::error::Error>> 
     let mut target = target(scene, &arguments)?;
     target.order("configure", &ToTarget::Configure(settings(scene)))?;
     target.order("set point", &ToTarget::SetPoint(set_point(scene)))?;
-    target.order("arm", &ToTarget::Arm(scene.robot().id()))?;
+    target.order("arm", &ToTarget::Arm(scene.robot().id().expect("legs of six joints")))?;
     let mut sensors = start(scene);
     // At rest, so that the same measurement will do again.
     sensors.joint_rates = [0.0; JOINTS];

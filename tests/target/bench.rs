@@ -114,7 +114,7 @@ pub fn arm(target: &mut Target, scene: &Scene) {
         ("disarm", ToTarget::Disarm),
         ("configure", ToTarget::Configure(settings(scene))),
         ("set point", ToTarget::SetPoint(set_point(scene))),
-        ("arm", ToTarget::Arm(scene.robot().id())),
+        ("arm", ToTarget::Arm(scene.robot().id().expect("legs of six joints"))),
     ] {
         target.order(name, &order).expect("obeyed");
     }

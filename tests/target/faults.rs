@@ -367,7 +367,7 @@ fn orders_that_make_no_sense() {
     let mut tight = good;
     tight.joint_limits[3].torque = 1.0;
     bench.target.order("configure", &ToTarget::Configure(tight)).expect("obeyed");
-    bench.target.order("arm", &ToTarget::Arm(scene.robot().id())).expect("obeyed");
+    bench.target.order("arm", &ToTarget::Arm(scene.robot().id().expect("legs of six joints"))).expect("obeyed");
     assert_eq!(bench.tick(|_| {}).joint_torques[3].abs(), 1.0);
 }
 
@@ -379,7 +379,7 @@ fn another_robot_is_not_armed() {
     let mut target = crate::bench::target();
     let own = target.identity().robot;
     let scene = surefoot_sim::scene::load("experiment-1").expect("built in");
-    assert_eq!(own, scene.robot().id());
+    assert_eq!(own, scene.robot().id().expect("legs of six joints"));
     let other = RobotId { fingerprint: own.fingerprint ^ 1, ..own };
     let Err(LinkError::Refused { answer, .. }) = target.order("arm", &ToTarget::Arm(other)) else {
         panic!("it is armed for another robot")

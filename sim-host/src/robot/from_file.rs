@@ -1,7 +1,8 @@
 //! A robot of a file as scenes take it: its tree, names, feet, limits, and what it looks like.
 
 use super::{
-    Contacts, Foot, FootPoint, LEG, Limits, MOST_LEGS, Passive, Robot, SizedTree, stance, with_tree,
+    Contacts, Foot, FootPoint, LEG, Limits, MOST_LEGS, Passive, Robot, SizedTree, contacts, stance,
+    with_tree,
 };
 use crate::picture::Solid;
 use nalgebra::{Matrix3, Vector3};

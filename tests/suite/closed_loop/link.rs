@@ -145,7 +145,7 @@ fn a_target_of_another_robot_is_refused() {
     let scene = load("experiment-1").expect("built in");
     let target = Target::connect(Played::after(0)).expect("an answer");
     let error = FirmwareController::new(target, &scene).err().expect("refused").to_string();
-    let own = format!("{:08x}", scene.robot().id().fingerprint);
+    let own = format!("{:08x}", scene.robot().id().expect("legs of six joints").fingerprint);
     for word in ["biped", "12 joints", &own, "18 joints", "12345678", "`cargo xtask firmware`"] {
         assert!(error.contains(word), "{error} has no {word}");
     }

@@ -40,6 +40,9 @@ pub fn firmware_controller<T: Transport + 'static>(
             eprintln!("the board runs without its crystal: {reason}");
         }
         Ok(Box::new(FirmwareController::new(target, scene)?))
+    }, _tree, ROWS => {
+        let _: [(); ROWS];
+        Err(LinkError::NoFirmware { robot: scene.robot().name.clone() })
     })
 }
 
@@ -51,7 +54,8 @@ impl<const JOINTS: usize> FirmwareController<JOINTS> {
     /// [`LinkError`].
     pub fn new(mut target: Target<JOINTS>, scene: &Scene) -> Result<Self, LinkError> {
         let robot = scene.robot();
-        let (wanted, found) = (robot.id(), target.identity().robot);
+        let wanted = robot.id().ok_or_else(|| LinkError::NoFirmware { robot: robot.name.clone() })?;
+        let found = target.identity().robot;
         if wanted != found {
             let (name, command) = (robot.name.clone(), image::command(scene));
             return Err(LinkError::AnotherRobot { name, wanted, found, command });
@@ -131,6 +135,9 @@ fn single_precision(scene: &Scene) -> (Vec<JointLimits<f32>>, Thresholds<f32>) {
     with_tree!(&robot.tree, _tree, LEGS => {
         let limits = robot.limits.sized::<LEGS>().expect("a robot has limits for each of its joints");
         let limits = limits.to_f32();
+        (limits.joints.as_flattened().to_vec(), limits.thresholds)
+    }, _tree, ROWS => {
+        let limits = robot.limits.in_rows::<ROWS>().expect("rows for each of its joints").to_f32();
         (limits.joints.as_flattened().to_vec(), limits.thresholds)
     })
 }

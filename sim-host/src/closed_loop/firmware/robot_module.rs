@@ -10,16 +10,17 @@ use std::fmt::Write;
 use surefoot_robots::tree_source;
 
 /// The module's text, of the robot that a scene reads from a file, with the scene's gains and set point; `None` for a
-/// scene of another robot.
+/// scene of another robot, and for one that no firmware balances yet.
 pub fn robot_module(scene: &Scene) -> Option<String> {
+    let fingerprint = scene.robot().id()?.fingerprint;
     let tree = tree_source(scene.robot.as_ref()?.described()?);
     let mut out = String::new();
     // Writing to a string does not fail.
-    write(&mut out, scene, &tree).ok()?;
+    write(&mut out, scene, &tree, fingerprint).ok()?;
     Some(out)
 }
 
-fn write(out: &mut String, scene: &Scene, tree: &str) -> std::fmt::Result {
+fn write(out: &mut String, scene: &Scene, tree: &str, fingerprint: u32) -> std::fmt::Result {
     let robot = scene.robot();
     let (legs, joints, pose) = (robot.leg_count(), robot.joint_count(), set_point(scene));
     let size = format!("{}, {}, {}", joints + 1, joints + 7, joints + 6);
@@ -33,7 +34,7 @@ fn write(out: &mut String, scene: &Scene, tree: &str) -> std::fmt::Result {
     writeln!(out, "/// Its images are in the folder `target/firmware` below this name.")?;
     writeln!(out, "pub const NAME: &str = {:?};", folder_name(&robot))?;
     writeln!(out, "/// Of `ROBOT` and `LIMITS`, by which the other end of the link knows them.")?;
-    writeln!(out, "pub const FINGERPRINT: u32 = {:#010x};", robot.id().fingerprint)?;
+    writeln!(out, "pub const FINGERPRINT: u32 = {fingerprint:#010x};")?;
     writeln!(out, "/// Legs of six revolute joints.\npub const LEGS: usize = {legs};\n")?;
     writeln!(out, "/// Of the legs' joints.\npub const TREE: Tree<f64, {size}> = {tree};\n")?;
     writeln!(out, "/// As the balance controller takes it.")?;
@@ -71,5 +72,7 @@ fn write(out: &mut String, scene: &Scene, tree: &str) -> std::fmt::Result {
 fn limits(robot: &Robot) -> String {
     with_tree!(&robot.tree, _tree, LEGS => {
         robot.limits.sized::<LEGS>().map_or_else(String::new, |limits| format!("{limits:?}"))
+    }, _tree, ROWS => {
+        robot.limits.in_rows::<ROWS>().map_or_else(String::new, |limits| format!("{limits:?}"))
     })
 }

@@ -58,6 +58,14 @@ pub enum LinkError {
         /// What builds the images.
         command: String,
     },
+    /// There is no firmware for robots of its kind.
+    #[error(
+        "the firmware balances robots on legs of six revolute joints alone; {robot} is balanced on the host only"
+    )]
+    NoFirmware {
+        /// The scene's robot.
+        robot: String,
+    },
     /// Nobody has built the firmware for the robot.
     #[error("no firmware for the robot {robot} at {}: `{command}` builds it", image.display())]
     NoImage {
