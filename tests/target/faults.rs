@@ -367,7 +367,10 @@ fn orders_that_make_no_sense() {
     let mut tight = good;
     tight.joint_limits[3].torque = 1.0;
     bench.target.order("configure", &ToTarget::Configure(tight)).expect("obeyed");
-    bench.target.order("arm", &ToTarget::Arm(scene.robot().id().expect("legs of six joints"))).expect("obeyed");
+    bench
+        .target
+        .order("arm", &ToTarget::Arm(scene.robot().id().expect("legs of six joints")))
+        .expect("obeyed");
     assert_eq!(bench.tick(|_| {}).joint_torques[3].abs(), 1.0);
 }
 

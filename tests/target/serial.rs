@@ -90,7 +90,9 @@ fn a_free_running_target_keeps_its_deadline_and_stops_without_its_host() {
         sleep(Duration::from_millis(300));
         let status = target.status().expect("an answer");
         assert_eq!((status.mode, status.overruns), (Mode::Standby, 0));
-        target.order("arm", &ToTarget::Arm(scene.robot().id().expect("legs of six joints"))).expect("obeyed");
+        target
+            .order("arm", &ToTarget::Arm(scene.robot().id().expect("legs of six joints")))
+            .expect("obeyed");
         let measurement = target.measurement(&Bench::sensors_of(&scene));
         let frame = target.frame(&measurement);
         let torques = target.tick_raw(&frame).expect("an answer");

@@ -25,6 +25,7 @@ pub struct Robot {
     source: PathBuf,
     /// Of the folder of its images.
     name: String,
+    legs: usize,
 }
 
 impl Robot {
@@ -34,7 +35,7 @@ impl Robot {
     }
 
     /// As a file describes it.
-    fn of_file(file: &Path) -> Result<Self> {
+    pub fn of_file(file: &Path) -> Result<Self> {
         const EXPECTED: &str = "expected the robot.rs that `surefoot import` writes";
         let source = file
             .canonicalize()
@@ -54,7 +55,25 @@ impl Robot {
             "{}: the name {name:?} is none for a folder; {EXPECTED}",
             file.display()
         );
-        Ok(Self { source, name: name.to_owned() })
+        let legs = legs(&text).with_context(|| {
+            format!("{} does not say how many legs there are; {EXPECTED}", file.display())
+        })?;
+        Ok(Self { source, name: name.to_owned(), legs })
+    }
+
+    /// Its robot.rs.
+    pub fn source(&self) -> &Path {
+        &self.source
+    }
+
+    /// Of the folder of what is built for it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// How many legs it has.
+    pub fn legs(&self) -> usize {
+        self.legs
     }
 }
 
@@ -64,6 +83,13 @@ fn name(text: &str) -> Option<&str> {
     let (_, name) = module.split_once("pub const NAME: &str = \"")?;
     let (name, _) = name.split_once('"')?;
     Some(name).filter(|name| !name.is_empty())
+}
+
+/// Its number of legs, likewise.
+fn legs(text: &str) -> Option<usize> {
+    let (_, module) = text.split_once("\npub mod firmware {")?;
+    let (_, legs) = module.split_once("pub const LEGS: usize = ")?;
+    legs.split_once(';')?.0.parse().ok()
 }
 
 /// An image of the firmware.

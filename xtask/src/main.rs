@@ -3,6 +3,7 @@
 //! - `test`: installs what is missing, runs every test, compiles core for the target and proves
 //!   there that the tick cannot panic.
 //! - `firmware`: the firmware's images.
+//! - `c`: the controller as a library for C.
 //! - `budget`: what the firmware takes on its target, against `tests/budgets.toml`.
 //! - `instructions`: instruction counts per call of each algorithm, repeatable to the last digit.
 //! - `peers`: the multibody simulator beside MuJoCo.
@@ -13,6 +14,7 @@
 mod apt;
 mod arm_toolchain;
 mod budget;
+mod c_library;
 mod emulator;
 mod firmware;
 mod image;
@@ -39,6 +41,8 @@ enum Chore {
     Test(test::Options),
     /// Build the firmware's images of a robot: for a board, and for the emulator.
     Firmware(firmware::Options),
+    /// Build the controller of a robot as a library for C, with its headers.
+    C(c_library::Options),
     /// Measure what the firmware takes on its target, and compare that with its budget.
     Budget(budget::Options),
     /// Count the instructions of one call of each algorithm, by callgrind.
@@ -51,6 +55,7 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().chore {
         Chore::Test(options) => test::run(&options),
         Chore::Firmware(options) => firmware::run(&options),
+        Chore::C(options) => c_library::run(&options),
         Chore::Budget(options) => budget::run(&options),
         Chore::Instructions(options) => instructions::run(&options),
         Chore::Peers(options) => peers::run(&options),

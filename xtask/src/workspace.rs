@@ -51,10 +51,12 @@ pub fn rustc<A: Into<OsString>>(arguments: impl IntoIterator<Item = A>) -> Step 
     Step::new(env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()), arguments)
 }
 
-/// What cargo says of each thing it has built; only executables are of interest.
+/// What cargo says of each thing it has built.
 #[derive(Deserialize)]
 struct Message {
     executable: Option<PathBuf>,
+    #[serde(default)]
+    filenames: Vec<PathBuf>,
 }
 
 /// Builds, and asks cargo itself which executables came of it, so that no setting of target folders
@@ -63,12 +65,19 @@ struct Message {
 /// # Returns
 /// The paths of the executables.
 pub fn executables<const N: usize>(build: Step, last: [&str; N]) -> Result<Vec<PathBuf>> {
+    Ok(messages(build, last)?.into_iter().filter_map(|message| message.executable).collect())
+}
+
+/// The same of all files that came of it.
+pub fn libraries(build: Step) -> Result<Vec<PathBuf>> {
+    Ok(messages(build, [])?.into_iter().flat_map(|message| message.filenames).collect())
+}
+
+fn messages<const N: usize>(build: Step, last: [&str; N]) -> Result<Vec<Message>> {
     let build = build.args(["--message-format=json-render-diagnostics"]).args(last);
-    let messages = build.run_and_read()?;
-    let paths = messages
-        .lines()
-        .map(|line| Ok(serde_json::from_str::<Message>(line)?.executable))
+    let text = build.run_and_read()?;
+    text.lines()
+        .map(|line| Ok(serde_json::from_str::<Message>(line)?))
         .collect::<Result<Vec<_>>>()
-        .with_context(|| format!("`{build}` wrote a message that cannot be read"))?;
-    Ok(paths.into_iter().flatten().collect())
+        .with_context(|| format!("`{build}` wrote a message that cannot be read"))
 }

@@ -69,12 +69,7 @@ impl LimitTally {
     }
 
     /// Another tick of a robot on legs of six joints.
-    pub(super) fn count_tick<T: Real>(
-        &mut self,
-        robot: &Robot,
-        time_s: f64,
-        tick: &TickLimits<T>,
-    ) {
+    pub(super) fn count_tick<T: Real>(&mut self, robot: &Robot, time_s: f64, tick: &TickLimits<T>) {
         self.count(tick.is_active, tick.is_unfinished);
         let Some(reason) = tick.worst else { return };
         let leg = robot.legs.get(reason.foot).cloned().unwrap_or_default();

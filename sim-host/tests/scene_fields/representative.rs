@@ -27,7 +27,10 @@ pub fn scenes() -> Vec<Named> {
         "hardware".into(),
         read("experiment-1").replace("step_s = 2e-3", "step_s = 1e-3") + HARDWARE,
     ));
-    all.push(("differing".into(), read("stand") + DIFFERING));
+    all.push((
+        "differing".into(),
+        read("experiment-1").replace("step_s = 2e-3", "step_s = 1e-3") + DIFFERING,
+    ));
     all
 }
 

@@ -1,6 +1,6 @@
 //! A plant that differs from the controller's model of it.
 
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use surefoot::dynamics::{body_poses, joint_poses};
 use surefoot::model::robots::biped::TREE;
 use surefoot::model::{Link, Tree};
@@ -58,7 +58,8 @@ fn changed() -> Robot {
     let links: [Link; 13] = std::array::from_fn(|k| {
         let shape = TREE.body_shape(k).expect("a body");
         let is_outboard = (KNEE..7).contains(&k);
-        let shift = if is_outboard { Vector3::from(SHIFT) } else { Vector3::zeros() };
+        let in_thigh = poses[THIGH].rotation * Vector3::from(SHIFT);
+        let shift = if is_outboard { in_thigh } else { Vector3::zeros() };
         let mut center = poses[k].position + shift;
         let point = poses[k].transform_point(shape.joint) + shift;
         let inboard = TREE.inboard(k).map_or(0, |i| i + 1);
@@ -71,17 +72,20 @@ fn changed() -> Robot {
         if k == THIGH {
             mass *= 1.3;
             inertia *= 1.3 * 0.8;
-            center += Vector3::from(CENTER);
+            center += poses[k].rotation * Vector3::from(CENTER);
         }
         if k == LADEN {
             let (ball, above) = BALL;
             let reduced = mass * ball / (mass + ball) * above * above;
             let own = 0.4 * ball * RADIUS * RADIUS;
             inertia += Vector3::new(reduced + own, reduced + own, own);
-            center.z += ball / (mass + ball) * above;
+            center += poses[k].rotation * Vector3::new(0.0, 0.0, ball / (mass + ball) * above);
             mass += ball;
         }
-        link.body(mass, inertia.into(), center.into()).rotor_inertia(if k == KNEE {
+        let turn = Rotation3::from_matrix_unchecked(poses[k].rotation);
+        let turn = UnitQuaternion::from_rotation_matrix(&turn);
+        let link = link.body(mass, inertia.into(), center.into());
+        link.oriented([turn.w, turn.i, turn.j, turn.k]).rotor_inertia(if k == KNEE {
             ROTOR
         } else {
             0.0

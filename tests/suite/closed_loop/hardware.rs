@@ -207,7 +207,7 @@ fn the_documented_tables_play() {
 fn the_other_documented_tables_play() {
     let document = include_str!("../../../docs/robot-scenes.md");
     let stand = include_str!("../../../sim-host/scenes/stand.toml");
-    for (number, [distance, degrees]) in [(3, [0.05, 3.0]), (5, [0.05, 8.0])] {
+    for (number, [distance, degrees]) in [(3, [0.05, 4.0]), (5, [0.05, 8.0])] {
         let tables = document.split("```").nth(number).and_then(|code| code.strip_prefix("toml"));
         let text = [stand, tables.expect("an example")].concat();
         let AnyScene::Robot(scene) = parse("documented", &text).expect("a scene") else {

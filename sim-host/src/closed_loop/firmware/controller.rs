@@ -54,7 +54,8 @@ impl<const JOINTS: usize> FirmwareController<JOINTS> {
     /// [`LinkError`].
     pub fn new(mut target: Target<JOINTS>, scene: &Scene) -> Result<Self, LinkError> {
         let robot = scene.robot();
-        let wanted = robot.id().ok_or_else(|| LinkError::NoFirmware { robot: robot.name.clone() })?;
+        let wanted =
+            robot.id().ok_or_else(|| LinkError::NoFirmware { robot: robot.name.clone() })?;
         let found = target.identity().robot;
         if wanted != found {
             let (name, command) = (robot.name.clone(), image::command(scene));

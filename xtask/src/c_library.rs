@@ -1,0 +1,90 @@
+//! `cargo xtask c`: the controller of a robot as a library for C, with its headers.
+
+use crate::arm_toolchain::{ArmToolchain, TARGET};
+use crate::firmware::Robot;
+use crate::workspace;
+use anyhow::{Context, Result, bail};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+const PACKAGE: &str = "surefoot-c";
+/// Joints of a leg.
+const LEG: usize = 6;
+
+/// Of which robot, for which machine.
+#[derive(Args)]
+pub struct Options {
+    /// The robot.rs that `surefoot import` wrote; the robot of the text unless said.
+    #[arg(long, value_name = "DIR/robot.rs")]
+    robot: Option<PathBuf>,
+    /// A target as rustc calls it, such as thumbv7em-none-eabihf; this machine unless said.
+    #[arg(long, value_name = "TRIPLE")]
+    target: Option<String>,
+}
+
+/// Builds, and says where everything is.
+pub fn run(options: &Options) -> Result<()> {
+    let robot = match &options.robot {
+        Some(file) => Robot::of_file(file)?,
+        None => Robot::of_the_text()?,
+    };
+    for path in build(&robot, options.target.as_deref())? {
+        println!("{}", path.display());
+    }
+    Ok(())
+}
+
+/// Builds the library of a robot, and puts it with its headers into `target/c/ROBOT/TARGET`.
+///
+/// # Returns
+/// The paths of the files.
+pub fn build(robot: &Robot, target: Option<&str>) -> Result<Vec<PathBuf>> {
+    let cargo = match target {
+        Some(TARGET) => ArmToolchain::provide()?.cargo("build"),
+        Some(other) => workspace::cargo(["build", "--target", other]),
+        None => workspace::cargo(["build"]),
+    };
+    let cargo = cargo.args(["--release", "--package", PACKAGE]);
+    let built = workspace::libraries(cargo.env("SUREFOOT_ROBOT", robot.source()))?;
+    let folder = workspace::root().join("target/c").join(robot.name());
+    let folder = folder.join(target.unwrap_or("host"));
+    std::fs::create_dir_all(&folder)
+        .with_context(|| format!("{} cannot be made", folder.display()))?;
+    let mut files = Vec::new();
+    let mut put = |path: PathBuf| files.push(path);
+    for library in built {
+        let is_ours = library.file_stem().is_some_and(|stem| stem == "libsurefoot_c");
+        let is_for_c = library.extension().is_some_and(|end| end != "rlib" && end != "rmeta");
+        if is_ours && is_for_c {
+            put(copied(&library, &folder)?);
+        }
+    }
+    if files.is_empty() {
+        bail!("cargo has built no library for C");
+    }
+    let header = workspace::root().join("c/include/surefoot.h");
+    files.push(copied(&header, &folder)?);
+    let sizes = folder.join("surefoot_robot.h");
+    std::fs::write(&sizes, robot_header(robot))
+        .with_context(|| format!("{} cannot be written", sizes.display()))?;
+    files.push(sizes);
+    Ok(files)
+}
+
+fn copied(file: &Path, folder: &Path) -> Result<PathBuf> {
+    let to = folder.join(file.file_name().context("a file with a name")?);
+    std::fs::copy(file, &to)
+        .with_context(|| format!("{} cannot be copied to {}", file.display(), to.display()))?;
+    Ok(to)
+}
+
+/// The sizes of a robot.
+fn robot_header(robot: &Robot) -> String {
+    let (name, legs) = (robot.name(), robot.legs());
+    format!(
+        "/* The robot {name}. Made with the library: both belong together. */\n\
+         #ifndef SUREFOOT_ROBOT_H\n#define SUREFOOT_ROBOT_H\n\n\
+         #define SUREFOOT_LEGS {legs}\n#define SUREFOOT_JOINTS {}\n\n#endif\n",
+        LEG * legs
+    )
+}
