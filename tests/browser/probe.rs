@@ -58,7 +58,8 @@ fn fits(page: &Path, width: u32) {
 fn a_mechanism_s_replay_is_worked_like_a_robot_s() {
     for (name, page) in pages::mechanisms().iter().filter(|(name, _)| *name != "four-bar") {
         let findings = Findings::of(page, 800);
-        assert_eq!(findings.number("end"), 1.0, "{name}");
+        // A second, in whole steps.
+        assert!((findings.number("end") - 1.0).abs() < 0.02, "{name}");
         assert_eq!(findings.get("orbited"), "true", "{name}");
         assert_eq!(findings.get("reset"), "true", "{name}");
         assert_eq!(findings.number("sought"), 0.32, "{name}");

@@ -8,7 +8,7 @@ use crate::scene::{Mechanism, Outline};
 use nalgebra::{Matrix3, Vector3};
 
 /// Thickness of rods that have none of their own, and of marks, in the size of what is shown.
-const THIN: f64 = 0.012;
+const THIN: f64 = 0.018;
 /// A box of a body's inertia is drawn as far as it does not hide its joints: so much longer than its longest arm.
 const HIDES: f64 = 1.5;
 /// Distance of the eye, in the radius of what is to be seen.
@@ -198,31 +198,36 @@ fn solids(mechanism: &Mechanism, layout: &Layout, thin: f64) -> Vec<Vec<Solid>> 
             vec![vec![Solid::cuboid([edge, edge, *length_m])]; *links]
         }
         (_, LayoutKind::Rods(rods)) => {
-            let ball = Solid::ball(3.0 * thin);
+            let ball = Solid::ball(2.5 * thin);
             let rod = |length: &f64| Solid::rod(Vector3::zeros(), Vector3::z() * *length, thin);
             rods.lengths.iter().map(|length| vec![rod(length), ball.clone()]).collect()
         }
         (_, LayoutKind::Bodies(system)) => {
-            (0..system.links().len()).map(|k| of_body(system, k, thin)).collect()
+            let points = |k: usize| layout.points.iter().filter(move |point| point.body == k);
+            let points = |k: usize| points(k).map(|point| point.at).collect::<Vec<_>>();
+            (0..system.links().len()).map(|k| of_body(system, k, &points(k), thin)).collect()
         }
         (_, LayoutKind::Orientation) => Vec::new(),
     }
 }
 
-/// The box of a body's inertia, and rods from its centre of mass to its joints.
-fn of_body(system: &System, k: usize, thin: f64) -> Vec<Solid> {
+/// The box of a body's inertia, and rods from its centre of mass to its joints, and to contact points outside of the box.
+fn of_body(system: &System, k: usize, points: &[Vector3<f64>], thin: f64) -> Vec<Solid> {
     let body = &system.links()[k].body;
     let whole = inertia_box(body.mass, &body.inertia, thin);
     let arms = arms(system, k);
     let longest = arms.iter().map(Vector3::norm).fold(0.0, f64::max);
-    let half = 0.5 * whole.extent().into_iter().fold(0.0, f64::max);
+    let halves = Vector3::from(whole.extent()) * 0.5;
+    let half = halves.max();
+    let outside = |point: &&Vector3<f64>| (point.abs() - halves).max() > thin;
     let is_fit = arms.is_empty() || half <= HIDES * longest;
     let mut solids: Vec<Solid> = arms
         .iter()
+        .chain(points.iter().filter(outside))
         .filter(|arm| arm.norm() > thin)
         .map(|arm| Solid::rod(Vector3::zeros(), *arm, thin))
         .collect();
-    solids.push(if is_fit { whole } else { Solid::cuboid([4.0 * thin; 3]) });
+    solids.push(if is_fit { whole } else { Solid::cuboid([3.0 * thin; 3]) });
     solids
 }
 
@@ -235,7 +240,7 @@ fn inertia_box(mass: f64, inertia: &[f64; 3], least: f64) -> Solid {
 
 /// What joints to the world are marked by.
 fn pivots(layout: &Layout, thin: f64) -> Vec<Solid> {
-    let mark = |at: Vector3<f64>| Solid::cuboid([4.0 * thin; 3]).moved(&Matrix3::identity(), at);
+    let mark = |at: Vector3<f64>| Solid::cuboid([3.0 * thin; 3]).moved(&Matrix3::identity(), at);
     match &layout.kind {
         LayoutKind::Orientation => Vec::new(),
         LayoutKind::Rods(_) => vec![mark(Vector3::zeros())],

@@ -183,7 +183,7 @@ fn note(report: &MechanismReport<'_>) -> String {
         (_, LayoutKind::Rods(_)) => "Point masses on rods without mass.",
         _ => {
             "Bodies are boxes of uniform density with the bodies' masses and inertias, and rods from the centre of mass \
-             to the joints; where such a box would hide the joints, a cube marks the centre of mass."
+             to the joints and what touches the floor; where such a box would hide the joints, a cube marks the centre of mass."
         }
     };
     format!("{ground}{arrows} {bodies}")

@@ -57,7 +57,7 @@ class Camera {
     this.target = target;
     this.eye = add(target, scaled(this.towards, this.distance));
     this.middle = [width / 2, height / 2];
-    this.focus = 1.75 * Math.min(height, 1.15 * width);
+    this.focus = 1.75 * Math.min(height, width);
   }
 
   project(point) {
