@@ -5,7 +5,7 @@ use surefoot::balance::StopReason;
 use surefoot_sim::closed_loop::firmware::FirmwareController;
 use surefoot_sim::closed_loop::{self, Commanded, ControlFailure, Controller, Scalar};
 use surefoot_sim::plant::PlantState;
-use surefoot_sim::scene::{Feet, Outline, load};
+use surefoot_sim::scene::{Feet, Outline, Push, Scene, load};
 
 /// The target in the loop, and the host's controller beside it on the same measurements.
 struct Twins {
@@ -29,6 +29,11 @@ impl Controller for Twins {
 
     fn stopped(&self) -> Option<StopReason> {
         self.target.stopped()
+    }
+
+    fn touch(&mut self, time_s: f64, feet: &[bool]) {
+        self.target.touch(time_s, feet);
+        self.host.touch(time_s, feet);
     }
 }
 
@@ -73,6 +78,37 @@ fn experiment_2_is_the_same_to_the_last_bit() {
 #[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
 fn twenty_seconds_of_pushes_are_the_same_to_the_last_bit() {
     plays_equally("experiment-1-pushes");
+}
+
+/// Within limits of ground and motors: pushed, and with one that topples it; torques, reports of limits, and stops.
+#[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
+fn limited_ticks_are_the_same_to_the_last_bit() {
+    for (impulse, degrees) in [(0.0, 0.0), (25.0, 0.0), (35.0, 45.0), (35.0, 90.0), (60.0, 135.0)] {
+        let scene = pushed(impulse, degrees);
+        let target = FirmwareController::new(target(), &scene).expect("obeyed");
+        let host = closed_loop::controller(&scene, Scalar::F32);
+        let mut twins = Twins { target, host, compared: 0 };
+        let run = closed_loop::run(&scene, &mut twins, &mut |_| {});
+        let (host, target) = (twins.host.limits(), twins.target.limits());
+        assert_eq!(host, target);
+        let limits = target.expect("a limited distribution");
+        let slowest = twins.target.tick_costs().iter().max();
+        println!("{impulse} N·s at {degrees}°: {:?} {limits:?} {slowest:?}", run.outcome);
+        assert_eq!(limits.active_share > 0.0, impulse > 0.0);
+        let status = twins.target.target().status().expect("an answer");
+        println!("stack {} bytes", status.stack_bytes);
+        assert!(status.stack_bytes <= 10_500 && status.overruns == 0);
+    }
+}
+
+fn pushed(impulse: f64, degrees: f64) -> Scene {
+    let mut scene = load("stand").expect("built in");
+    let (sine, cosine) = f64::to_radians(degrees).sin_cos();
+    let force = impulse / 0.1;
+    let force_n = [force * cosine, force * sine, 0.0];
+    scene.pushes = vec![Push { at_s: 0.7, duration_s: 0.1, force_n }];
+    scene
 }
 
 /// Smaller soles, which are hit harder at the start, do not stop the target; a floor without friction does,

@@ -374,6 +374,42 @@ fn orders_that_make_no_sense() {
     assert_eq!(bench.tick(|_| {}).joint_torques[3].abs(), 1.0);
 }
 
+/// Limits of ground and motors that are none, or wider than the robot's own.
+#[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
+fn limits_that_make_no_sense() {
+    use surefoot_sim::closed_loop::firmware::{LinkError, wrench_settings};
+    let scene = surefoot_sim::scene::load("stand").expect("built in");
+    let good = wrench_settings::<JOINTS>(&scene).expect("a limited distribution");
+    let mut target = crate::bench::target();
+    let mut answer = |limits: &surefoot_link::WrenchSettings<JOINTS>| match target
+        .order("limits", &ToTarget::Limit(limits.clone()))
+    {
+        Ok(()) => Acknowledged::Done,
+        Err(LinkError::Refused { answer, .. }) => answer,
+        Err(other) => panic!("{other}"),
+    };
+    assert_eq!(answer(&good), Acknowledged::Done);
+    let mut bad = good.clone();
+    bad.ground.friction = f32::NAN;
+    assert_eq!(answer(&bad), Acknowledged::Invalid);
+    bad = good.clone();
+    bad.soles.pop();
+    assert_eq!(answer(&bad), Acknowledged::Invalid);
+    bad = good.clone();
+    bad.soles[1].x[0] = -0.3;
+    assert_eq!(answer(&bad), Acknowledged::Sole(1));
+    bad.soles[1].x[0] = f32::NAN;
+    assert_eq!(answer(&bad), Acknowledged::Sole(1));
+    bad = good.clone();
+    bad.torques[9] *= 1.01;
+    let joint = Some((1, 3));
+    let widens = LimitError { joint, field: LimitField::Torque, fault: LimitFault::Widens };
+    assert_eq!(answer(&bad), Acknowledged::Limit(widens));
+    bad.torques[9] = f32::NAN;
+    assert_eq!(answer(&bad), Acknowledged::Invalid);
+}
+
 /// A host of another robot is told which one this is; the motors stay off.
 #[test]
 #[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]

@@ -1,11 +1,12 @@
 //! No state makes a tick long: random ones, nearly singular ones, and faulty ones.
 
-use crate::bench::{JOINTS, Sensors, Target, Torques, arm, target};
+use crate::bench::{JOINTS, Sensors, Target, ToTarget, Torques, arm, target};
 use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use surefoot::balance::Mode;
 use surefoot::spatial::Quaternion;
+use surefoot_sim::closed_loop::firmware::{set_point, settings, wrench_settings};
 use surefoot_sim::scene::{Scene, load};
 
 /// A state near standing, such as no supervisor stops; the knees' angles are given.
@@ -111,6 +112,41 @@ fn no_state_makes_a_tick_long() {
     let torques = second_tick(&mut target, &scene, &still, &still);
     assert_ne!(torques.mode, Mode::Active);
     assert!(torques.cost <= *most);
+}
+
+/// The same within limits of ground and motors, each state as if out of nothing and once more from the limits that
+/// bound then.
+#[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
+fn no_state_makes_a_limited_tick_long() {
+    let scene = load("stand").expect("built in");
+    let limits = wrench_settings::<JOINTS>(&scene).expect("a limited distribution");
+    let period = (1.0 / scene.controller.rate_hz) as f32;
+    let (mut target, mut rng) = (target(), Pcg64Mcg::seed_from_u64(5));
+    let (mut most, mut unfinished) = (0, 0);
+    for number in 0..1000_u32 {
+        for (name, order) in [
+            ("disarm", ToTarget::Disarm),
+            ("configure", ToTarget::Configure(settings(&scene))),
+            ("limits", ToTarget::Limit(limits.clone())),
+            ("set point", ToTarget::SetPoint(set_point(&scene))),
+            ("arm", ToTarget::Arm(scene.robot().id())),
+        ] {
+            target.order(name, &order).expect("obeyed");
+        }
+        let knees = [rng.random_range(-1.6..-0.3), rng.random_range(-1.6..-0.3)];
+        let mut state = random(&mut rng, knees);
+        state.contacts = [3, 3, 3, 1, 2, 0][number as usize % 6];
+        for _ in 0..3 {
+            let torques = target.tick(&state).expect("an answer");
+            most = most.max(torques.cost);
+            unfinished += u32::from(torques.limits.is_some_and(|limits| limits.is_unfinished));
+            state = later(state, period);
+        }
+    }
+    println!("within limits: {most} instructions at most, {unfinished} ticks unfinished");
+    assert!(unfinished > 0, "no tick has spent all of its work");
+    assert!(most <= 75_000, "{most}");
 }
 
 /// Knees from bent to nearly straight. Whether some of these ticks were full ones.

@@ -20,6 +20,8 @@ pub(super) struct Factors<T, N, const K: usize> {
     pivots: [T; K],
     inverse_pivots: [T; K],
     y: [T; K],
+    /// Row of `L D` of the row that is being taken in: here, so that nothing is cleared for it.
+    scaled: [T; K],
     count: usize,
 }
 
@@ -43,15 +45,15 @@ impl<T: Real, N: Copy, const K: usize> Factors<T, N, K> {
     /// No rows. The normal is what the places for rows are filled with.
     #[inline(always)]
     pub fn new(filling: N) -> Self {
-        let zero = [T::zero(); K];
         Self {
             rows: [0; K],
             normals: [filling; K],
-            multipliers: zero,
-            lower: [zero; K],
-            pivots: zero,
-            inverse_pivots: zero,
-            y: zero,
+            multipliers: [T::zero(); K],
+            lower: [[T::zero(); K]; K],
+            pivots: [T::zero(); K],
+            inverse_pivots: [T::zero(); K],
+            y: [T::zero(); K],
+            scaled: [T::zero(); K],
             count: 0,
         }
     }
@@ -63,13 +65,13 @@ impl<T: Real, N: Copy, const K: usize> Factors<T, N, K> {
         self.count.min(K)
     }
 
-    /// Takes a row in: `products` are its `a · H⁻¹ a_j` with the rows before it, `own` that with
-    /// itself plus δ, `residual` its `r`. Does nothing where there is no room.
+    /// Takes a row in: `product` gives its `a · H⁻¹ a_j` with the normal of a row before it, `own` is
+    /// that with itself plus δ, `residual` its `r`. Does nothing where there is no room.
     #[inline(always)]
     pub fn append(
         &mut self,
         (row, normal, multiplier): (u8, N, T),
-        mut products: [T; K],
+        product: impl Fn(&N) -> T,
         own: T,
         residual: T,
         softness: T,
@@ -78,15 +80,14 @@ impl<T: Real, N: Copy, const K: usize> Factors<T, N, K> {
         if k >= K {
             return;
         }
-        // `products` becomes the row of L D.
         let mut pivot = own;
         let mut z = residual;
         for j in 0..k {
-            let mut x = products[j];
+            let mut x = product(&self.normals[j]);
             for m in 0..j {
-                x -= self.lower[j][m] * products[m];
+                x -= self.lower[j][m] * self.scaled[m];
             }
-            products[j] = x;
+            self.scaled[j] = x;
             let l = x * self.inverse_pivots[j];
             self.lower[k][j] = l;
             pivot -= x * l;

@@ -42,6 +42,14 @@ pub trait Program<T: Real> {
     /// `H⁻¹ g`.
     fn response(&self, factor: &Self::Factor, gradient: &Self::Point) -> Self::Point;
 
+    /// The same of one row's normal. At most as many multiplications.
+    #[inline(always)]
+    fn row_response(&self, factor: &Self::Factor, normal: &Self::Normal) -> Self::Point {
+        let mut gradient = self.zero();
+        self.accumulate(&mut gradient, normal, T::one());
+        self.response(factor, &gradient)
+    }
+
     /// Normal and bound of a row; `None` where there is no such row. What exists may change from
     /// call to call.
     fn row(&self, row: u8) -> Option<(Self::Normal, T)>;

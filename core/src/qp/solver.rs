@@ -226,17 +226,12 @@ impl<T: Real, P: Program<T>> Run<'_, T, P> {
         let program = self.program;
         let Some((normal, bound)) = program.row(row) else { return false };
         self.work += self.append_cost(rows.len());
-        let mut gradient = program.zero();
-        program.accumulate(&mut gradient, &normal, T::one());
-        let response = program.response(factor, &gradient);
-        let mut products = [T::zero(); K];
-        for (product, (other, _)) in products.iter_mut().zip(rows.iter()) {
-            *product = program.product(other, &response);
-        }
+        let response = program.row_response(factor, &normal);
         let softness = self.settings.softness;
         let own = program.product(&normal, &response) + softness;
         let residual = bound - program.product(&normal, x0);
-        rows.append((row, normal, multiplier), products, own, residual, softness);
+        let product = |other: &_| program.product(other, &response);
+        rows.append((row, normal, multiplier), product, own, residual, softness);
         self.held.insert(row);
         true
     }

@@ -30,6 +30,9 @@ pub struct Options {
 struct Budget {
     tick_instructions: u64,
     spread_percent: f64,
+    limited_free_instructions: u64,
+    limited_mean_instructions: u64,
+    limited_tick_instructions: u64,
     tick_cycles: u64,
     stack_bytes: u64,
     flash_bytes: u64,
@@ -45,6 +48,9 @@ const OTHER: &str = "other";
 struct Measured {
     ticks: u64,
     instructions: Instructions,
+    limited_ticks: u64,
+    limited_free: Instructions,
+    limited_active: Instructions,
     per_stage: BTreeMap<String, u64>,
     per_stage_big_base: BTreeMap<String, u64>,
     stack_bytes: u64,
@@ -71,6 +77,12 @@ pub struct Report {
     /// Of a tick, over all ticks.
     pub instructions: Instructions,
     spread_percent: f64,
+    /// Ticks within limits of ground and motors, pushed.
+    limited_ticks: u64,
+    /// Of those in which no limit bound.
+    limited_free: Instructions,
+    /// Of those in which one did.
+    limited_active: Instructions,
     per_stage: BTreeMap<String, u64>,
     per_stage_big_base: BTreeMap<String, u64>,
     cycles_estimate: Estimate,
@@ -102,6 +114,12 @@ impl Report {
         };
         check("tick_instructions", self.instructions.max as f64, budget.tick_instructions as f64);
         check("spread_percent", self.spread_percent, budget.spread_percent);
+        let (free, active) = (self.limited_free, self.limited_active);
+        check("limited_free_instructions", free.mean, budget.limited_free_instructions as f64);
+        let mean = budget.limited_mean_instructions;
+        check("limited_mean_instructions", active.mean, mean as f64);
+        let slowest = budget.limited_tick_instructions;
+        check("limited_tick_instructions", active.max as f64, slowest as f64);
         check("tick_cycles", self.cycles_estimate.max as f64, budget.tick_cycles as f64);
         check("stack_bytes", self.stack_bytes as f64, budget.stack_bytes as f64);
         check("flash_bytes", self.flash_bytes as f64, budget.flash_bytes as f64);
@@ -168,6 +186,9 @@ pub fn measure(arm: &ArmToolchain) -> Result<Report> {
         ticks: measured.ticks,
         instructions: measured.instructions,
         spread_percent: 100.0 * (max as f64 / mean - 1.0),
+        limited_ticks: measured.limited_ticks,
+        limited_free: measured.limited_free,
+        limited_active: measured.limited_active,
         per_stage: measured.per_stage,
         per_stage_big_base: measured.per_stage_big_base,
         cycles_estimate: Estimate {
@@ -205,6 +226,22 @@ pub fn print(report: &Report) {
         format!("{:.2}", report.spread_percent),
         budget.spread_percent.to_string(),
     );
+    let limited = &report.limited_active;
+    row(
+        "within limits, none binds: mean",
+        format!("{:.1}", report.limited_free.mean),
+        budget.limited_free_instructions.to_string(),
+    );
+    row(
+        "within limits, some bind: mean",
+        format!("{:.1}", limited.mean),
+        budget.limited_mean_instructions.to_string(),
+    );
+    row(
+        "within limits: slowest",
+        limited.max.to_string(),
+        budget.limited_tick_instructions.to_string(),
+    );
     row("tick, cycles (estimate)", cycles_estimate.max.to_string(), budget.tick_cycles.to_string());
     row(
         "  in µs at 168 MHz",
@@ -235,5 +272,5 @@ pub fn print(report: &Report) {
         println!("  {class:<32}{count:>12}");
     }
     println!("cycles are an estimate: {}", cycles_estimate.model);
-    println!("over {} ticks", report.ticks);
+    println!("over {} ticks, and {} within limits", report.ticks, report.limited_ticks);
 }

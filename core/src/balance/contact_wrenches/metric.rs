@@ -118,4 +118,43 @@ impl<T: Real> Metric<T> {
         }
         response
     }
+
+    /// The same of a gradient on one foot.
+    #[inline(always)]
+    pub(super) fn row_response<const FEET: usize, const JOINTS: usize>(
+        &self,
+        feet: &[Option<ContactFoot<'_, T, JOINTS>>; FEET],
+        split: &LeastNorm<T, FEET>,
+        norm_squared: T,
+        (own, e): (usize, &Wrench<T>),
+    ) -> [Wrench<T>; FEET] {
+        let (Some(Some(foot)), Some(Some(arm))) = (feet.get(own), split.arms.get(own)) else {
+            return [Wrench::zero(); FEET];
+        };
+        let free = foot.free_moment(e.torque) * norm_squared;
+        let moment = arm.cross(&e.force) + free;
+        let y = Wrench { force: e.force * split.share, torque: split.inverse.product(moment) };
+        let t = Wrench::from_array(self.factors.solve(&y.to_array()));
+        let mut u =
+            Wrench { force: t.force * split.share, torque: split.inverse.product(t.torque) };
+        let several = feet.iter().flatten().count() > 1
+            || feet.iter().flatten().any(|f| !f.limits.patch.is_sole());
+        if several {
+            u -= y * self.inverse_regularization;
+        }
+        core::array::from_fn(|i| {
+            let (Some(foot), Some(arm)) = (&feet[i], &split.arms[i]) else {
+                return Wrench::zero();
+            };
+            let mut to = Wrench {
+                force: u.force + u.torque.cross(arm),
+                torque: foot.free_moment(u.torque) * norm_squared,
+            };
+            if several && i == own {
+                to.force += e.force * self.inverse_regularization;
+                to.torque += free * self.inverse_regularization;
+            }
+            to
+        })
+    }
 }

@@ -196,6 +196,12 @@ impl<T: Real, const FEET: usize, const JOINTS: usize> Program<T>
     }
 
     #[inline(always)]
+    fn row_response(&self, factor: &Metric<T>, normal: &OnFoot<T>) -> [Wrench<T>; FEET] {
+        let OnFoot { foot, wrench } = normal;
+        factor.row_response(self.feet, &self.split, self.norm_squared, (*foot, wrench))
+    }
+
+    #[inline(always)]
     fn row(&self, row: u8) -> Option<(OnFoot<T>, T)> {
         let (foot, row) = Self::split_row(row);
         let (wrench, bound) = self.feet.get(foot)?.as_ref()?.row(row)?;

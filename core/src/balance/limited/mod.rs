@@ -14,7 +14,8 @@
 //!
 //! # What creeps
 //! A foot that bears little slides, and the wrench for feet that stand still would let it go on as it
-//! does. Where limits bind, feet are asked to come to rest at [`WrenchLimits::rest_rate`].
+//! does. Where limits bind, feet are asked to come to rest at [`WrenchLimits::rest_rate`], from the tick
+//! after they began to on: until the wrench for feet that stand still is within them again.
 //!
 //! # Feet in the air
 //! A foot that its caller says to be in the air carries nothing: the others share the wrench, which then

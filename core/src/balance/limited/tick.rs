@@ -22,9 +22,8 @@ use crate::spatial::{Twist, Wrench};
 /// A [`Fault`] as of [`tick`](crate::balance::tick). A limit that binds is not a fault.
 ///
 /// # Cost
-/// Where nothing binds, a fifth more than [`tick`](crate::balance::tick); else, the stages before it once
-/// more where limits begin or cease to bind, and at most
-/// [`WrenchLimits::MOST_WORK`] multiplications more. No allocation, no panic.
+/// Where nothing binds, a sixth more than [`tick`](crate::balance::tick), and the stages before it once
+/// more where limits cease to bind; else at most [`WrenchLimits::MOST_WORK`] multiplications more. No allocation, no panic.
 ///
 /// ```
 /// use surefoot::balance::{
@@ -78,21 +77,20 @@ pub fn limited_tick<T: Real, const LEGS: usize>(
     let was_free = memory.active.is_empty();
     let mut asked =
         if is_standing && was_free { robot.plain(desired.x)? } else { robot.at_rest(desired.x)? };
-    if is_standing && asked.is_broken == was_free {
-        // Limits that begin to bind, or cease to.
-        if was_free {
-            let at_rest = robot.at_rest(desired.x)?;
-            asked = if at_rest.is_broken { at_rest } else { asked };
-        } else {
-            asked = robot.plain(desired.x)?;
-        }
+    let mut is_free = !asked.is_broken;
+    if is_standing && !was_free && is_free {
+        // Limits that cease to bind, unless it is by what creeps coming to rest. Where they begin to,
+        // what creeps has a tick's time.
+        let plain = robot.plain(desired.x)?;
+        is_free = !plain.is_broken;
+        asked = if is_free { plain } else { asked };
     }
     let Asked { loads, mut wrenches, mut torques, is_broken } = asked;
     let mut report = LimitReport::free();
     if is_broken {
         report = within(&robot, &loads, &mut wrenches, &mut memory.active)?;
         torques = robot.torques(&loads, &wrenches)?;
-    } else {
+    } else if is_free {
         memory.active = ActiveRows::new();
     }
     if report.is_limited() || !is_standing {

@@ -24,6 +24,8 @@ pub struct FirmwareController<const JOINTS: usize> {
     contacts: u8,
     /// Of ticks within limits.
     tally: Option<LimitTally>,
+    /// In which of them some limit bound.
+    limited: Vec<bool>,
 }
 
 /// A scene's controller on a target of its robot.
@@ -70,12 +72,18 @@ impl<const JOINTS: usize> FirmwareController<JOINTS> {
         target.order("set point", &ToTarget::SetPoint(set_point(scene)))?;
         target.order("arm", &ToTarget::Arm(wanted))?;
         let (costs, stopped, tally) = (Vec::new(), None, limits.map(|_| LimitTally::default()));
-        Ok(Self { target, robot, costs, stopped, time_s: 0.0, contacts: u8::MAX, tally })
+        let (time_s, contacts, limited) = (0.0, u8::MAX, Vec::new());
+        Ok(Self { target, robot, costs, stopped, time_s, contacts, tally, limited })
     }
 
     /// What each tick has cost, in the target's unit.
     pub fn tick_costs(&self) -> &[u32] {
         &self.costs
+    }
+
+    /// In which ticks some limit of ground or motors bound.
+    pub fn limited_ticks(&self) -> &[bool] {
+        &self.limited
     }
 
     /// The target.
@@ -91,6 +99,7 @@ impl<const JOINTS: usize> FirmwareController<JOINTS> {
         let sensors = Sensors { contacts: self.contacts, ..sensors(state) };
         let torques = self.target.tick(&sensors)?;
         self.costs.push(torques.cost);
+        self.limited.push(torques.limits.is_some_and(|limits| limits.is_active));
         Ok(torques)
     }
 }
