@@ -15,6 +15,7 @@ use crate::integrators::Progress;
 use crate::multibody::SystemError;
 use crate::plant::{PerPoint, Plant, PlantState};
 use crate::record::{Event, MotionIdentity, Sample, SavedMotion, SavedRun};
+use crate::robot::{LEG, Robot};
 use crate::scene::{Scene, TorquesFrom};
 use nalgebra::Vector3;
 use std::time::{Duration, Instant};
@@ -98,7 +99,7 @@ pub fn run_plant(
     let mut run = Run::new();
     let result = advance(scene, plant, controller, (from, follow), &mut run);
     // Whatever came of it later.
-    let result = run.stop.map_or(result, |stop| Err(stopped(stop)));
+    let result = run.stop.map_or(result, |stop| Err(stopped(stop, &scene.robot())));
     run.progress = plant.progress().copied();
     run = ended(run, result);
     if let Some(failure) = &mut run.failure {
@@ -325,7 +326,7 @@ fn fallen(state: &PlantState, lowest: f64, time: f64) -> Result<(), Failure> {
 }
 
 /// What a stop says of a run.
-fn stopped(Stop { time_s, reason }: Stop) -> Failure {
+fn stopped(Stop { time_s, reason }: Stop, robot: &Robot) -> Failure {
     let advice = match reason {
         StopReason::Tick(_) => FAULT_ADVICE,
         StopReason::Saturated { .. } => {
@@ -336,8 +337,25 @@ fn stopped(Stop { time_s, reason }: Stop) -> Failure {
         }
         _ => "see the measurements before; the limits are those of the robot's description",
     };
-    let place = format!("the supervisor stopped the robot: {reason}");
+    let mut place = format!("the supervisor stopped the robot: {reason}");
+    if let (false, Some((row, joint))) = (robot.tree.is_six_jointed(), joint_of(reason))
+        && let Some(name) = robot.joints.get(LEG * row + joint)
+    {
+        // Its supervisor has joints in rows of six, which are no legs.
+        place = place.replace(&format!("leg {row}'s joint {joint}"), name);
+    }
     Failure { kind: "stopped", time_s, place, advice: advice.into() }
+}
+
+/// The joint that a reason is about.
+fn joint_of(reason: StopReason) -> Option<(usize, usize)> {
+    match reason {
+        StopReason::Encoder { leg, joint }
+        | StopReason::Frozen { leg, joint }
+        | StopReason::Jump { leg, joint }
+        | StopReason::Saturated { leg, joint } => Some((leg, joint)),
+        _ => None,
+    }
 }
 
 fn other_motion(difference: &str) -> Failure {

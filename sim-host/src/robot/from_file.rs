@@ -1,5 +1,6 @@
 //! A robot of a file as scenes take it: its tree, names, feet, limits, and what it looks like.
 
+use super::contacts;
 use super::{
     Contacts, Foot, FootPoint, LEG, Limits, MOST_LEGS, Passive, Robot, SizedTree, contacts, stance,
     with_tree,

@@ -5,7 +5,7 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 use surefoot::Real;
 use surefoot::balance::{
-    ContactPatch, Fault, Input, WholeBody, WholeBodyController, WholeBodyMemory,
+    ContactPatch, Fault, Input, WholeBody, WholeBodyController, WholeBodyFoot, WholeBodyMemory,
     WholeBodyRobotFault, WholeBodySettings, WholeBodyState, whole_body_tick,
 };
 use surefoot::model::{Link, Tree};
@@ -97,11 +97,13 @@ fn what_is_wrong_is_named() {
     assert_eq!(play(&bad), Err(Fault::NotFinite(Input::Rate(17))));
 }
 
+type Feet = [Option<WholeBodyFoot<f64>>; 4];
+
 #[test]
 fn what_is_no_legged_robot_is_refused() {
     let mut rng = random(4);
     let robot = five(&mut rng);
-    let made = |change: &dyn Fn(&mut [Option<surefoot::balance::WholeBodyFoot<f64>>; 4])| {
+    let made = |change: &dyn Fn(&mut Feet)| {
         let mut feet = robot.feet;
         change(&mut feet);
         WholeBody::new(&robot.tree, &feet).map(|_| ()).expect_err("refused")
@@ -109,9 +111,8 @@ fn what_is_no_legged_robot_is_refused() {
     assert_eq!(made(&|feet| *feet = [None; 4]), WholeBodyRobotFault::NoFoot);
     let sole = ContactPatch::sole([-0.1, 0.1], [-0.1, 0.1], 0.0);
     let short = WholeBodyRobotFault::ShortLeg { foot: 1, joints: 5, directions: 6 };
-    let with_sole = |feet: &mut [Option<_>; 4]| {
+    let with_sole = |feet: &mut Feet| {
         if let Some(foot) = feet[1].as_mut() {
-            let foot: &mut surefoot::balance::WholeBodyFoot<f64> = foot;
             foot.limits.patch = sole;
         }
     };
