@@ -130,7 +130,7 @@ fn no_state_makes_a_limited_tick_long() {
             ("configure", ToTarget::Configure(settings(&scene))),
             ("limits", ToTarget::Limit(limits.clone())),
             ("set point", ToTarget::SetPoint(set_point(&scene))),
-            ("arm", ToTarget::Arm(scene.robot().id())),
+            ("arm", ToTarget::Arm(scene.robot().id().expect("legs of six joints"))),
         ] {
             target.order(name, &order).expect("obeyed");
         }

@@ -4,12 +4,15 @@
 //! of the machine is touched. Times are of this machine and of this hour: what can be compared is what one
 //! run gives.
 
+mod peers_loop;
+
 use crate::step::Step;
 use crate::workspace;
 use anyhow::{Context, Result};
 use clap::Args;
 use serde::Deserialize;
 use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
 
 /// How to say it.
 #[derive(Args)]
@@ -17,6 +20,12 @@ pub struct Options {
     /// Print one JSON document on stdout, and nothing else.
     #[arg(long)]
     json: bool,
+    /// Close the loop of a scene with MuJoCo as plant instead, and print the largest pushes that either survives.
+    #[arg(long = "loop")]
+    is_loop: bool,
+    /// The scene of the loop.
+    #[arg(long, default_value = "stand", requires = "is_loop")]
+    scene: String,
 }
 
 /// The version that the figures in the documents are of.
@@ -74,15 +83,9 @@ struct TheirRun {
 pub fn run(options: &Options) -> Result<()> {
     let folder = workspace::root().join("target").join("peers");
     std::fs::create_dir_all(&folder)?;
-    let python = folder.join("python").join("bin").join("python");
-    if !Step::new(&python, ["-c", "import mujoco"]).succeeds() {
-        let place = folder.join("python");
-        Step::new("python3", ["-m", "venv"]).args([&place]).within(INSTALL_LIMIT).run().context(
-            "MuJoCo comes as a Python package: Python 3 with its module venv is needed for it",
-        )?;
-        Step::new(&python, ["-m", "pip", "install", "--quiet", MUJOCO])
-            .within(INSTALL_LIMIT)
-            .run_silently()?;
+    let python = mujoco(&folder)?;
+    if options.is_loop {
+        return peers_loop::run(&options.scene, &folder, &python, options.json);
     }
     let build = ["build", "--release", "--package", "surefoot-tests", "--example", "peers"];
     let programs = workspace::executables(workspace::cargo(build), [])?;
@@ -102,6 +105,21 @@ pub fn run(options: &Options) -> Result<()> {
         print(&serde_json::from_str(&ours)?, &serde_json::from_str(&theirs)?);
     }
     Ok(())
+}
+
+/// A Python with MuJoCo, which is installed into a folder of its own where it is missing.
+fn mujoco(folder: &Path) -> Result<PathBuf> {
+    let python = folder.join("python").join("bin").join("python");
+    if !Step::new(&python, ["-c", "import mujoco"]).succeeds() {
+        let place = folder.join("python");
+        Step::new("python3", ["-m", "venv"]).args([&place]).within(INSTALL_LIMIT).run().context(
+            "MuJoCo comes as a Python package: Python 3 with its module venv is needed for it",
+        )?;
+        Step::new(&python, ["-m", "pip", "install", "--quiet", MUJOCO])
+            .within(INSTALL_LIMIT)
+            .run_silently()?;
+    }
+    Ok(python)
 }
 
 fn print(ours: &Ours, theirs: &Theirs) {

@@ -2,8 +2,7 @@
 
 use super::contacts;
 use super::{
-    Contacts, Foot, FootPoint, LEG, Limits, MOST_LEGS, Passive, Robot, SizedTree, contacts, stance,
-    with_tree,
+    Contacts, Foot, FootPoint, LEG, Limits, MOST_LEGS, Passive, Robot, SizedTree, stance, with_tree,
 };
 use crate::picture::Solid;
 use nalgebra::{Matrix3, Vector3};

@@ -2,6 +2,7 @@
 
 mod browser;
 mod budget;
+mod c_library;
 mod doc_tests;
 mod documented;
 mod firmware;
@@ -38,6 +39,8 @@ enum Stage {
     Browser,
     /// Robots of other projects, from Python's package index: import, and dynamics against Pinocchio and MuJoCo.
     Robots,
+    /// The controller as a library for C: a program of C has the core's bits.
+    CLibrary,
     /// Features that a scene does not have execute no instruction, on the host.
     Unused,
     /// Core compiles for the target.
@@ -76,6 +79,9 @@ pub fn run(options: &Options) -> Result<()> {
     if options.wants(Stage::Robots) {
         record.stage("robots", robots::run);
     }
+    if options.wants(Stage::CLibrary) {
+        record.stage("c-library", c_library::run);
+    }
     if options.wants(Stage::Unused) {
         record.stage("unused", crate::instructions::nothing_unused_runs);
     }
@@ -88,6 +94,9 @@ pub fn run(options: &Options) -> Result<()> {
             }
             if options.wants(Stage::PanicFree) {
                 record.stage("panic-free", || panic_free::run(arm));
+            }
+            if options.wants(Stage::CLibrary) {
+                record.stage("c-library-target", c_library::on_target);
             }
             if options.wants(Stage::Firmware) {
                 record.stage("firmware", || firmware::run(arm));
