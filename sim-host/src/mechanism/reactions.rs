@@ -8,7 +8,8 @@
 //! ```
 //! Bodies of a tree only: of what hangs from two joints, momenta say what both bear together.
 
-use super::layout::{JointKind, Layout, LayoutKind, Rods};
+use super::layout::{Layout, LayoutKind, Rods};
+use super::named_joint::{JointKind, NamedJoint};
 use super::run::{Earlier, MechanismSample};
 use crate::multibody::{BodyState, System};
 use nalgebra::Vector3;
@@ -96,7 +97,7 @@ impl Layout {
                 all[inboard].torque += torque;
             }
         }
-        let of = |named: &super::NamedJoint| {
+        let of = |named: &NamedJoint| {
             let Reaction { force, torque } = all[named.outboard];
             let at = match &named.kind {
                 JointKind::Bodies(joint) => joint.outboard.into(),
