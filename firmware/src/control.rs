@@ -16,7 +16,6 @@ use surefoot_link::{Pacing, SetPoint, Settings, TickLimits, by_leg};
 pub const PERIOD: f32 = 1e-3;
 
 /// What the application asks of the next tick.
-#[expect(clippy::large_enum_variant, reason = "its queues are static, and there is no heap")]
 pub enum Order {
     /// New constants; in standby only.
     Configure(Settings<JOINTS>),
