@@ -10,13 +10,17 @@
 use core::hint::black_box;
 use nalgebra::Vector3;
 use surefoot::balance::{
-    Controller, FootLimits, Gains, Ground, LeggedRobot, LimitMemory, Reference, RobotState, Sole,
-    Supervisor, WorkspaceForm, WrenchLimits, limited_tick, tick,
+    ContactLimits, ContactPatch, Controller, FootLimits, Gains, Ground, LeggedRobot, LimitMemory,
+    Reference, RobotState, Sole, Supervisor, WholeBody, WholeBodyController, WholeBodyFoot,
+    WholeBodyMemory, WholeBodySettings, WholeBodyState, WorkspaceForm, WrenchLimits, limited_tick,
+    tick, whole_body_tick,
 };
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
 
 static ROBOT: LeggedRobot<f32, 2> = LeggedRobot::new(&biped::TREE).to_f32();
+
+static TREE: biped::Biped<f32> = biped::TREE_F32;
 
 /// A robot at rest on bent legs that is to stay there.
 #[inline(always)]
@@ -77,6 +81,36 @@ pub fn opaque_limited_tick() {
         Ok(answer.command)
     });
     black_box((answer, report, memory));
+}
+
+/// A tick of the whole-body controller, of a robot and a memory of anything.
+#[inline(always)]
+pub fn opaque_whole_body_tick() {
+    let patch = black_box(ContactPatch::sole([-0.2, 0.05], [-0.05, 0.05], -0.06));
+    let limits = ContactLimits {
+        least_force: 5.0,
+        greatest_force: 2000.0,
+        friction: 0.24,
+        patch,
+        torques: [],
+    };
+    let (reference, axes) = (Vector3::zeros(), Quaternion::identity());
+    let foot = |body| Some(WholeBodyFoot { body, reference, axes, limits });
+    let feet = black_box([foot(biped::FEET[0]), foot(biped::FEET[1]), None, None]);
+    let tree = black_box(&TREE);
+    let Ok(robot) = WholeBody::new(tree, &feet) else { return };
+    let settings = black_box(WholeBodySettings::scaled(1.05, 9.81, 4));
+    if settings.check().is_err() {
+        return;
+    }
+    let controller =
+        WholeBodyController { tree, robot: black_box(&robot), settings: black_box(&settings) };
+    let state = black_box(WholeBodyState { positions: [0.1; 19], velocities: [0.1; 18] });
+    let (_, wanted) = crouching();
+    let mut memory = black_box(WholeBodyMemory::of([(130_u8, 1.0_f32); 30]));
+    let contacts = black_box([true; 4]);
+    let answer = whole_body_tick(&controller, &state, &wanted, &contacts, &mut memory);
+    let _ = black_box((answer, memory));
 }
 
 /// Ends an image: there is nothing more to do, and nowhere to return to.

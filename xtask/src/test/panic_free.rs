@@ -10,10 +10,15 @@ use std::fmt::Write;
 
 const PACKAGE: &str = "surefoot-panic-free";
 
-/// Images that must not be able to panic: the tick, the one within limits, quadratic programs, and the
-/// rest of core.
-const CLAIMS: [&str; 4] =
-    ["panic-free-tick", "panic-free-limited", "panic-free-qp", "panic-free-dynamics"];
+/// Images that must not be able to panic: the tick, the one within limits, the one of any robot, quadratic
+/// programs, and the rest of core.
+const CLAIMS: [&str; 5] = [
+    "panic-free-tick",
+    "panic-free-limited",
+    "panic-free-whole-body",
+    "panic-free-qp",
+    "panic-free-dynamics",
+];
 
 /// An image that can panic on purpose; a check that finds nothing in it is broken.
 const COUNTEREXAMPLE: &str = "panic-free-counterexample";

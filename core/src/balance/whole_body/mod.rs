@@ -12,8 +12,8 @@
 //!   has. A leg with more joints uses the rest for its posture; near a singular posture (a straight knee)
 //!   the direction that is lost is given up, without a jump.
 //! - All other joints track a posture. Their inertia is in the dynamics, their torques in the command.
-//! - Ground and motors, those of waist and arms as well, are limits of [`WholeBodyProgram`]'s rows. While
-//!   none binds, the answer is the least-norm split of what each leg does not carry by itself; with legs
+//! - Ground and motors, those of waist and arms as well, are limits: rows of a quadratic program whose
+//!   objective is [`ContactProgram`](super::ContactProgram)'s. While none binds, the answer is the least-norm split of what each leg does not carry by itself; with legs
 //!   of six joints and soles this is [`tick`](super::tick)'s, to round-off.
 //!
 //! # What it is told
@@ -23,12 +23,11 @@
 //!
 //! A leg that swings would bring the acceleration of its foot as unknowns in the place of its wrench;
 //! here it tracks its posture.
-//!
-//! [`WholeBodyProgram`]: program::WholeBodyProgram
 
 mod contact;
 mod fault;
 mod leg_inverse;
+mod measured;
 mod program;
 mod reduced;
 mod report;

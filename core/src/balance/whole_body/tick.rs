@@ -1,24 +1,19 @@
 //! One tick.
 
 use super::contact::{Contact, Place};
+use super::measured::{checked, first3, posture, screws};
 use super::program::WholeBodyProgram;
 use super::reduced::Reduced;
 use super::report::WholeBodyReport;
 use super::robot::{MOST_LEG_JOINTS, WholeBody};
 use super::{WholeBodyCommand, WholeBodyMemory, WholeBodySettings, WholeBodyState};
 use crate::Real;
-use crate::balance::leg_kinematics::unit;
-use crate::balance::tick::check_reference;
-use crate::balance::{
-    CentralBody, ContactFoot, ContactProgram, Fault, Input, Reference, desired_acceleration,
-};
-use crate::dynamics::{
-    BodyKinematics, Kinematics, forward_kinematics, inverse_dynamics, joint_poses, mass_matrix,
-};
-use crate::model::{Axis, JointKind, Tree};
+use crate::balance::{ContactFoot, ContactProgram, Fault, Input, Reference, desired_acceleration};
+use crate::dynamics::{forward_kinematics, inverse_dynamics, joint_poses, mass_matrix};
+use crate::model::Tree;
 use crate::qp::{Settings, solve};
-use crate::spatial::{Quaternion, Twist, Wrench};
-use nalgebra::{Matrix3, Vector3};
+use crate::spatial::{Twist, Wrench};
+use nalgebra::Vector3;
 
 /// All constants of one controller.
 #[derive(Clone, Copy, Debug)]
@@ -224,110 +219,4 @@ fn carried<T: Real, const FEET: usize, const NV: usize>(
         }
         contact.holding(&torques)
     })
-}
-
-/// What a joint does that is free to.
-#[inline(always)]
-fn posture<T: Real, const FEET: usize, const NQ: usize, const NV: usize>(
-    robot: &WholeBody<T, FEET, NV>,
-    settings: &WholeBodySettings<T, NV>,
-    state: &WholeBodyState<T, NQ, NV>,
-) -> [T; NV] {
-    let [stiffness, damping] = settings.posture_gains;
-    let mut accelerations = [T::zero(); NV];
-    let all = robot.joints.iter().zip(&settings.posture).zip(&state.velocities);
-    for (to, ((joint, wanted), rate)) in accelerations.iter_mut().zip(all) {
-        let angle = joint.and_then(|joint| state.positions.get(joint.coordinate));
-        if let Some(angle) = angle {
-            *to = (*wanted - *angle) * stiffness - *rate * damping;
-        }
-    }
-    accelerations
-}
-
-/// Twist at frame 1's origin per rate of each joint that moves a foot, frame 1's axes.
-#[inline(always)]
-fn screws<T: Real, const N: usize, const NQ: usize, const NV: usize, const FEET: usize>(
-    tree: &Tree<T, N, NQ, NV>,
-    robot: &WholeBody<T, FEET, NV>,
-    kinematics: &Kinematics<T, N>,
-    central: &Matrix3<T>,
-) -> [Twist<T>; NV] {
-    let mut screws = [Twist::zero(); NV];
-    for (screw, joint) in screws.iter_mut().zip(&robot.joints) {
-        let Some(joint) = joint.as_ref().filter(|joint| joint.feet != 0) else { continue };
-        let (Some(node), Some(body)) = (tree.nodes.get(joint.node), kinematics.get(joint.node))
-        else {
-            continue;
-        };
-        let BodyKinematics { pose, .. } = body;
-        let axes = match &node.body_rotation {
-            None => pose.rotation,
-            Some(r) => pose.rotation * r.transpose(),
-        };
-        let (axis, slides) = match node.kind {
-            JointKind::Revolute(axis) => (axis, false),
-            JointKind::Prismatic(axis) => (axis, true),
-            _ => continue,
-        };
-        let along: Vector3<T> = match axis {
-            Axis::X => axes.column(0).into(),
-            Axis::Y => axes.column(1).into(),
-            Axis::Z => axes.column(2).into(),
-        };
-        let along = central.tr_mul(&if node.is_reversed { -along } else { along });
-        *screw = if slides {
-            Twist { linear: along, angular: Vector3::zeros() }
-        } else {
-            let point = central.tr_mul(&(pose.position - axes * node.center));
-            Twist { linear: point.cross(&along), angular: along }
-        };
-    }
-    screws
-}
-
-/// Alg. 4.1, of inputs that can be.
-#[inline(always)]
-fn checked<T: Real, const N: usize, const NQ: usize, const NV: usize>(
-    tree: &Tree<T, N, NQ, NV>,
-    state: &WholeBodyState<T, NQ, NV>,
-    reference: &Reference<T>,
-) -> Result<CentralBody<T>, Fault> {
-    let WholeBodyState { positions, velocities } = state;
-    for (k, x) in positions.iter().enumerate() {
-        if !x.is_finite() {
-            return Err(Fault::NotFinite(match k {
-                0..3 => Input::Position,
-                3..7 => Input::Orientation,
-                _ => Input::Coordinate(k),
-            }));
-        }
-    }
-    for (k, x) in velocities.iter().enumerate() {
-        if !x.is_finite() {
-            let input = if k < 6 { Input::Velocity } else { Input::Rate(k) };
-            return Err(Fault::NotFinite(input));
-        }
-    }
-    check_reference(reference)?;
-    let mut q = [T::zero(); 4];
-    for (to, x) in q.iter_mut().zip(positions.iter().skip(3)) {
-        *to = *x;
-    }
-    let orientation = unit(Quaternion::from_array(q)).ok_or(Fault::NotUnit(Input::Orientation))?;
-    let rotation = orientation.to_matrix();
-    let mut v = [T::zero(); 6];
-    for (to, x) in v.iter_mut().zip(velocities) {
-        *to = *x;
-    }
-    let velocity = Twist::from_array(v);
-    let gravity = rotation.tr_mul(&tree.gravity);
-    Ok(CentralBody { rotation, orientation, velocity, gravity })
-}
-
-fn first3<T: Real, const NQ: usize>(positions: &[T; NQ]) -> Vector3<T> {
-    match positions.first_chunk() {
-        Some([x, y, z]) => Vector3::new(*x, *y, *z),
-        None => Vector3::zeros(),
-    }
 }
