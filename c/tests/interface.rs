@@ -1,5 +1,8 @@
 //! What calls say that cannot be answered.
 
+// Calls of C are made as C makes them.
+#![allow(unsafe_code)]
+
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 use surefoot_c::{
@@ -83,7 +86,9 @@ fn nothing_is_done_before_a_controller_is_made() {
         assert_eq!(surefoot_arm(&mut *controller), SurefootStatus::NotMade);
         assert_eq!(surefoot_init(&mut *controller, &settings()), SurefootStatus::Ok);
         let bad_pose = [[f32::NAN, 0.0, 1.0], [0.0, 0.0, 1.0]];
-        for (position, turn) in bad_pose.iter().zip([[1.0, 0.0, 0.0, 0.0], [0.5; 4].map(|x: f32| 2.0 * x)]) {
+        for (position, turn) in
+            bad_pose.iter().zip([[1.0, 0.0, 0.0, 0.0], [0.5; 4].map(|x: f32| 2.0 * x)])
+        {
             let status = surefoot_set_pose(&mut *controller, position, &turn);
             assert_eq!(status, SurefootStatus::BadPose);
         }
