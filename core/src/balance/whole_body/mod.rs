@@ -13,8 +13,14 @@
 //!   the direction that is lost is given up, without a jump.
 //! - All other joints track a posture. Their inertia is in the dynamics, their torques in the command.
 //! - Ground and motors, those of waist and arms as well, are limits: rows of a quadratic program whose
-//!   objective is [`ContactProgram`](super::ContactProgram)'s. While none binds, the answer is the least-norm split of what each leg does not carry by itself; with legs
-//!   of six joints and soles this is [`tick`](super::tick)'s, to round-off.
+//!   objective is [`ContactProgram`](super::ContactProgram)'s. While none binds, the answer is the
+//!   least-norm split of what each leg does not carry by itself; with legs of six joints and soles this is
+//!   [`tick`](super::tick)'s, to round-off.
+//!
+//! # Cost
+//! In f32 on x86 (callgrind), nothing binding and with limits in force: the biped 49 000 and 76 000
+//! instructions, Go1 (twelve joints, four points) 56 000 and 74 000, G1 (29 joints, two soles) 132 000
+//! and 153 000.
 //!
 //! # What it is told
 //! A [`Tree`](crate::model::Tree) whose first body floats, its feet ([`WholeBodyFoot`]), in which
