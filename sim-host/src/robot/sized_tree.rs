@@ -116,7 +116,7 @@ impl SizedTree {
         }
     }
 
-    /// Of a floating link and others on joints of one degree of freedom; `None` for more than [`MOST_JOINTS`].
+    /// Of a floating link and others on joints of one degree of freedom; `None` for more than 42 joints.
     ///
     /// # Errors
     /// A [`TreeFault`] where they are no tree.

@@ -31,7 +31,11 @@ fn stands(name: &str, file: &str, options: &[&str]) {
         let run = ["run", &scene, "--scalar", scalar, "--json", "--out", &out];
         let document: Value = serde_json::from_str(&surefoot(&folder, &run)).expect("JSON");
         println!("{name} in {scalar}: {} {}", document["outcome"], document["final"]);
-        assert_eq!(document["outcome"], "balanced", "{name} in {scalar}");
+        let off = document["final"]["position_error_m"].as_f64().expect("a number");
+        // Measured: Solo12 1.4 mm, whose feet are meshes of balls, taken by their four lowest points; others
+        // below 0.03 mm.
+        assert!(off < if name == "solo12" { 2e-3 } else { 1e-4 }, "{name} in {scalar}: {off} m");
+        assert!(document["failure"].is_null(), "{name} in {scalar}");
     }
 }
 
