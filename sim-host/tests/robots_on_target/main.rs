@@ -44,7 +44,7 @@ fn stands(name: &str, file: &str) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("robots-on-target");
     std::fs::create_dir_all(&folder).expect("a folder below the target directory");
     let file = example_robot(file);
-    said(&folder, &["import", file.to_str().expect("UTF-8"), "--out", name]);
+    said(&folder, &["import", file.to_str().expect("UTF-8"), "--legs-only", "--out", name]);
     firmware(&folder, &format!("{name}/robot.rs"));
     let scene = format!("{name}/stand.toml");
     let (host, target) = (format!("{name}-host"), format!("{name}-target"));
