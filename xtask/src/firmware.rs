@@ -3,7 +3,7 @@
 use crate::arm_toolchain::ArmToolchain;
 use crate::{emulator, workspace};
 use anyhow::{Context, Result, ensure};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
 const PACKAGE: &str = "surefoot-firmware";
@@ -17,6 +17,9 @@ pub struct Options {
     /// The robot.rs that `surefoot import` wrote; the robot of the text unless said.
     #[arg(long, value_name = "DIR/robot.rs")]
     robot: Option<PathBuf>,
+    /// Only this image (may be given several times); all unless said.
+    #[arg(long, value_name = "IMAGE")]
+    image: Vec<Variant>,
 }
 
 /// A robot that firmware is built for.
@@ -93,7 +96,7 @@ fn legs(text: &str) -> Option<usize> {
 }
 
 /// An image of the firmware.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, ValueEnum)]
 pub enum Variant {
     /// For a board.
     Board,
@@ -149,9 +152,11 @@ pub fn run(options: &Options) -> Result<()> {
         Some(file) => Robot::of_file(file)?,
         None => Robot::of_the_text()?,
     };
+    let images = if options.image.is_empty() { &Variant::ALL[..] } else { &options.image };
     emulator::provide()?;
-    build(&ArmToolchain::provide()?, &robot)?;
-    for variant in Variant::ALL {
+    let arm = ArmToolchain::provide()?;
+    images.iter().try_for_each(|variant| variant.build(&arm, &robot))?;
+    for variant in images {
         println!("{}", variant.path(&robot).display());
     }
     Ok(())

@@ -31,7 +31,7 @@ fn said(folder: &Path, arguments: &[&str]) -> String {
 /// Built anew, whatever stands there.
 fn firmware(folder: &Path, robot: &str) {
     let build = Command::new(env!("CARGO"))
-        .args(["xtask", "firmware", "--robot"])
+        .args(["xtask", "firmware", "--image", "emulation", "--robot"])
         .arg(folder.join(robot))
         .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
         .output()

@@ -105,7 +105,7 @@ fn lagging_motors_follow_in_their_time() {
     for tick in 0..20 {
         motors.command(&[3.0, -3.0, 0.4], f64::from(tick) * 2.0 * h);
         for step in 0..2 {
-            let from = f64::from(2 * tick + step as i32) * h;
+            let from = f64::from(2 * tick + step) * h;
             let to = from + h;
             let mean = 2.5 * (1.0 + lag * ((-to / lag).exp() - (-from / lag).exp()) / h);
             let given = motors.over_step(step as usize);
