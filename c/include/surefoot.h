@@ -13,9 +13,9 @@
 #include "surefoot_robot.h"
 
 /**
- * Bytes of a controller.
+ * Words of eight bytes that a controller takes.
  */
-#define SUREFOOT_CONTROLLER_BYTES (1024 + (256 * SUREFOOT_JOINTS))
+#define SUREFOOT_CONTROLLER_WORDS (128 + (32 * SUREFOOT_JOINTS))
 
 /**
  * What became of a call.
@@ -163,12 +163,6 @@ typedef enum {
 } surefoot_limit;
 
 /**
- * A controller: memory that belongs to the caller, of which `surefoot_init` makes one. To be looked at by this library
- * alone; it holds no pointer into itself, and may be copied.
- */
-typedef struct surefoot_controller surefoot_controller;
-
-/**
  * Constants of a controller. `surefoot_default_settings` gives those of the robot's file.
  */
 typedef struct {
@@ -213,6 +207,14 @@ typedef struct {
    */
   float sole_share;
 } surefoot_settings;
+
+/**
+ * A controller: memory that belongs to the caller, of which `surefoot_init` makes one. To be looked at by this library
+ * alone; it holds no pointer into itself, and may be copied.
+ */
+typedef struct {
+  uint64_t opaque[SUREFOOT_CONTROLLER_WORDS];
+} surefoot_controller;
 
 /**
  * A measured state. Joints are those of the robot's file in its order: leg after leg, hip to foot.
@@ -295,7 +297,7 @@ extern "C" {
 #endif // __cplusplus
 
 /**
- * The same for programs that read it when they run.
+ * Bytes of a controller, for programs that read it when they run.
  */
 extern const size_t surefoot_controller_bytes;
 

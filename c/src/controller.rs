@@ -11,20 +11,20 @@ use surefoot::balance::{
 };
 use surefoot::spatial::Quaternion;
 
-/// Bytes of a controller.
-pub const SUREFOOT_CONTROLLER_BYTES: usize = 1024 + 256 * SUREFOOT_JOINTS;
+/// Words of eight bytes that a controller takes.
+pub const SUREFOOT_CONTROLLER_WORDS: usize = 128 + 32 * SUREFOOT_JOINTS;
 
-/// The same for programs that read it when they run.
+/// Bytes of a controller, for programs that read it when they run.
 #[unsafe(no_mangle)]
 #[allow(non_upper_case_globals, reason = "a name of C")]
-pub static surefoot_controller_bytes: usize = SUREFOOT_CONTROLLER_BYTES;
+pub static surefoot_controller_bytes: usize = size_of::<SurefootController>();
 
 /// A controller: memory that belongs to the caller, of which `surefoot_init` makes one. To be looked at by this library
 /// alone; it holds no pointer into itself, and may be copied.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct SurefootController {
-    opaque: [MaybeUninit<u64>; SUREFOOT_CONTROLLER_BYTES / 8],
+    opaque: [MaybeUninit<u64>; SUREFOOT_CONTROLLER_WORDS],
 }
 
 /// What the memory holds.

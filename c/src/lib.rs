@@ -16,7 +16,7 @@ mod settings;
 mod status;
 
 pub use command::{SurefootCommand, SurefootLimit, SurefootMode, SurefootStop};
-pub use controller::{SUREFOOT_CONTROLLER_BYTES, SurefootController};
+pub use controller::{SUREFOOT_CONTROLLER_WORDS, SurefootController};
 pub use measurement::SurefootMeasurement;
 pub use robot::{SUREFOOT_JOINTS, SUREFOOT_LEGS};
 pub use settings::SurefootSettings;

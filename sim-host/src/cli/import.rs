@@ -28,7 +28,7 @@ pub(super) struct Options {
     #[arg(long = "sole", value_name = "SOLE", value_parser = sole, allow_hyphen_values = true)]
     soles: Vec<Sole>,
     /// Lock every joint that no foot hangs from, at 0 or where --lock says
-    #[arg(long, requires = "feet")]
+    #[arg(long)]
     legs_only: bool,
     /// Take joints that follow others as free ones, and leave out constraints between bodies
     #[arg(long)]

@@ -329,7 +329,8 @@ fn feet_in_the_air_carry_nothing() {
 /// arrive where one with all of the work does.
 #[test]
 fn a_spent_budget_is_told_and_made_up_for() {
-    let (controller, plenty) = (Controller::new(&ROBOT), limits(&ROBOT));
+    let (controller, mut plenty) = (Controller::new(&ROBOT), limits(&ROBOT));
+    plenty.settings.work *= 4;
     let mut hurried = plenty;
     hurried.settings.work = 1100;
     let mut rng = random(74);
