@@ -1,6 +1,6 @@
 //! Core's trees by their size: the one place that tells sizes apart.
 //!
-//! Robots on two to four legs of six joints have trees of their own size. All others are compiled for two sizes, as
+//! Robots on two legs of six joints have trees of their own size. All others are compiled for two sizes, as
 //! each takes long to compile, and take the smaller that they fit: the rest is filled with sliding bodies on the
 //! world, at rest, which share no number with the robot's and leave its bits alone.
 
@@ -13,19 +13,15 @@ use surefoot::spatial::{Pose, Quaternion};
 
 /// Joints of a leg.
 pub const LEG: usize = 6;
-/// Legs that the controller is compiled for: two to four.
+/// Feet of a robot at most.
 pub const MOST_LEGS: usize = 4;
 
-/// A floating body on two, three or four legs of six joints, or with other joints.
+/// A floating body on two legs of six joints, or with other joints.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "a program holds a few of them")]
 pub enum SizedTree {
     /// On two legs.
     Two(Tree<f64, 13, 19, 18>),
-    /// On three.
-    Three(Tree<f64, 19, 25, 24>),
-    /// On four.
-    Four(Tree<f64, 25, 31, 30>),
     /// With other joints, up to 18; how many bodies are the robot's.
     Few(Box<Tree<f64, 19, 25, 24>>, usize),
     /// The same, up to 42.
@@ -41,8 +37,6 @@ macro_rules! with_tree {
     ($sized:expr, $tree:ident => $result:expr) => {
         match $sized {
             $crate::robot::SizedTree::Two($tree) => $result,
-            $crate::robot::SizedTree::Three($tree) => $result,
-            $crate::robot::SizedTree::Four($tree) => $result,
             $crate::robot::SizedTree::Few(boxed, _) => {
                 let $tree = &**boxed;
                 $result
@@ -57,14 +51,6 @@ macro_rules! with_tree {
         match $sized {
             $crate::robot::SizedTree::Two($tree) => {
                 const $legs: usize = 2;
-                $result
-            }
-            $crate::robot::SizedTree::Three($tree) => {
-                const $legs: usize = 3;
-                $result
-            }
-            $crate::robot::SizedTree::Four($tree) => {
-                const $legs: usize = 4;
                 $result
             }
             $crate::robot::SizedTree::Few(boxed, _) => {
@@ -96,7 +82,7 @@ pub struct Start {
 }
 
 impl SizedTree {
-    /// Of a floating link and six a leg; `None` for another number of them.
+    /// Of a floating link and twelve on two legs; `None` for another number of them.
     ///
     /// # Errors
     /// A [`TreeFault`] where they are no tree.
@@ -110,8 +96,6 @@ impl SizedTree {
         }
         match links.len() {
             13 => sized(links, gravity).map(|tree| tree.map(Self::Two)),
-            19 => sized(links, gravity).map(|tree| tree.map(Self::Three)),
-            25 => sized(links, gravity).map(|tree| tree.map(Self::Four)),
             _ => None,
         }
     }
@@ -137,9 +121,9 @@ impl SizedTree {
         }
     }
 
-    /// Whether all that moves is a floating body on legs of six joints.
+    /// Whether all that moves is a floating body on two legs of six joints.
     pub fn is_six_jointed(&self) -> bool {
-        matches!(self, Self::Two(_) | Self::Three(_) | Self::Four(_))
+        matches!(self, Self::Two(_))
     }
 
     /// Where all bodies are, world from body, at position, quaternion and angles.
@@ -186,8 +170,6 @@ impl SizedTree {
     pub fn bodies(&self) -> usize {
         match self {
             Self::Two(_) => 13,
-            Self::Three(_) => 19,
-            Self::Four(_) => 25,
             Self::Few(_, bodies) | Self::Many(_, bodies) => *bodies,
         }
     }
