@@ -46,7 +46,7 @@ impl Motors {
         let whole = (delay + NO_PART).floor();
         let part = if delay - whole > NO_PART { delay - whole } else { 0.0 };
         let whole = whole as usize;
-        // One more than a whole delay spans: `later` is asked for where it counts nothing.
+        // Room for the command one step before a whole delay too, which a part of a step needs.
         let spanned = (whole + steps_per_tick) / steps_per_tick;
         Self {
             limits: acting

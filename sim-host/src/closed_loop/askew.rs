@@ -34,16 +34,16 @@ impl Askew {
         })
     }
 
-    /// Makes the central body's pose and twist those that the sensor tells.
+    /// Makes the central body's pose and twist those that the sensor reports.
     pub fn apply(&self, seen: &mut PlantState) {
         let [s, x, y, z] = std::array::from_fn(|i| seen.positions[3 + i]);
         let q = Quaternion::from_array([s, x, y, z]);
-        let told = q.product(self.turn).product(self.drifted);
-        let told = told.normalized().unwrap_or(told);
+        let seen_q = q.product(self.turn).product(self.drifted);
+        let seen_q = seen_q.normalized().unwrap_or(seen_q);
         let velocity = q.rotate(Vector3::from_row_slice(&seen.velocities[..3]));
         let omega = Vector3::from_row_slice(&seen.velocities[3..6]);
-        seen.positions[3..7].copy_from_slice(&told.to_array());
-        seen.velocities[..3].copy_from_slice(told.conjugate().rotate(velocity).as_slice());
+        seen.positions[3..7].copy_from_slice(&seen_q.to_array());
+        seen.velocities[..3].copy_from_slice(seen_q.conjugate().rotate(velocity).as_slice());
         let omega = self.turn.conjugate().rotate(omega) + self.bias;
         seen.velocities[3..6].copy_from_slice(omega.as_slice());
     }

@@ -1,7 +1,9 @@
 //! How a robot with any legs stands: its feet as they are with all joints at 0, its legs shorter than there, its centre
 //! of mass over the middle of its feet. What is no leg stays at 0, or as near to it as it can be.
 
-use super::stance::{joint, off_middle, on_floor};
+use super::stance::{
+    BENT, CLOSE, DAMPING, LONGEST, MARGIN, ROUNDS, STEPS, joint, off_middle, on_floor,
+};
 use super::{Contacts, Robot};
 use crate::plant::PlantState;
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, UnitQuaternion, Vector3};
@@ -12,14 +14,6 @@ use surefoot::spatial::Quaternion;
 /// more, which stand with legs bent far.
 const ON_TWO: [f64; 4] = [0.07, 0.1, 0.05, 0.15];
 const ON_FOUR: [f64; 4] = [0.27, 0.2, 0.33, 0.14];
-/// Where a joint starts to bend, rad.
-const BENT: f64 = 0.8;
-const STEPS: usize = 300;
-const ROUNDS: usize = 20;
-const CLOSE: f64 = 1e-9;
-const DAMPING: f64 = 1e-3;
-const LONGEST: f64 = 0.3;
-const MARGIN: f64 = 0.02;
 /// Angles whose squares differ by less are one as good as the other.
 const EQUAL: f64 = 1e-4;
 

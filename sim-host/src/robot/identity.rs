@@ -12,9 +12,6 @@ impl Robot {
             let robot = LeggedRobot::<f64, LEGS>::new(tree).to_f32();
             let limits = self.limits.sized::<LEGS>()?;
             Some(RobotId::of(&robot, &limits.to_f32()))
-        }, _tree, ROWS => {
-            let _: [(); ROWS];
-            None
-        })
+        }, _tree, _ROWS => None)
     }
 }

@@ -9,17 +9,17 @@ use surefoot::spatial::{Pose, Quaternion};
 /// How much shorter bent legs are than the file's legs with all joints at 0: a straight knee then bends by 40°.
 const SHORTER: f64 = 0.06;
 /// Where legs start to bend, rad.
-const BENT: f64 = 0.8;
+pub(super) const BENT: f64 = 0.8;
 /// Steps of the search for angles, of the search for the middle, and what is left, m and rad.
-const STEPS: usize = 300;
-const ROUNDS: usize = 20;
-const CLOSE: f64 = 1e-9;
+pub(super) const STEPS: usize = 300;
+pub(super) const ROUNDS: usize = 20;
+pub(super) const CLOSE: f64 = 1e-9;
 /// What keeps steps short near a singular leg, in units of the Jacobian's (m and 1).
-const DAMPING: f64 = 1e-3;
+pub(super) const DAMPING: f64 = 1e-3;
 /// Longest step, rad.
-const LONGEST: f64 = 0.3;
+pub(super) const LONGEST: f64 = 0.3;
 /// Angles keep this far from the ends of their joints, rad.
-const MARGIN: f64 = 0.02;
+pub(super) const MARGIN: f64 = 0.02;
 
 /// The robot's state with these joint angles (rad), its central body turned, its lowest point on the floor.
 pub fn on_floor(robot: &Robot, angles: &[f64], turned: Quaternion<f64>) -> PlantState {

@@ -42,8 +42,7 @@ pub fn firmware_controller<T: Transport + 'static>(
             eprintln!("the board runs without its crystal: {reason}");
         }
         Ok(Box::new(FirmwareController::new(target, scene)?))
-    }, _tree, ROWS => {
-        let _: [(); ROWS];
+    }, _tree, _ROWS => {
         Err(LinkError::NoFirmware { robot: scene.robot().name.clone() })
     })
 }
