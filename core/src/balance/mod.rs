@@ -47,8 +47,8 @@ pub use joint_torques::joint_torques;
 pub use leg_jacobian::LegJacobian;
 pub use leg_kinematics::{CentralBody, LegKinematics, central_body, leg_kinematics};
 pub use limited::{
-    BrokenLimit, Ground, LimitMemory, LimitReport, LimitSet, LimitedCommand, WrenchLimits,
-    WrenchLimitsFault, limited_tick,
+    BindingRows, BrokenLimit, Ground, LimitMemory, LimitReport, LimitSet, LimitedCommand,
+    WrenchLimits, WrenchLimitsFault, limited_tick,
 };
 pub use robot::{LeggedRobot, LeggedRobotFault};
 pub use state::{Reference, RobotState};

@@ -7,14 +7,17 @@ use crate::qp::ActiveRows;
 /// other give way together.
 pub(super) const ROWS: usize = 16;
 
+/// What one tick within limits leaves for the next, of legs of six joints.
+pub type LimitMemory<T> = BindingRows<T, ROWS>;
+
 /// The limits that bound at the last tick, from which the next one begins. It belongs to the caller,
 /// one for each robot; a new one is a cold start, dearer and to the same answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LimitMemory<T> {
-    pub(super) active: ActiveRows<T, ROWS>,
+pub struct BindingRows<T, const ROWS: usize> {
+    pub(in crate::balance) active: ActiveRows<T, ROWS>,
 }
 
-impl<T: Real> LimitMemory<T> {
+impl<T: Real, const ROWS: usize> BindingRows<T, ROWS> {
     /// Before the first tick.
     pub fn new() -> Self {
         Self { active: ActiveRows::new() }
@@ -31,7 +34,7 @@ impl<T: Real> LimitMemory<T> {
     }
 }
 
-impl<T: Real> Default for LimitMemory<T> {
+impl<T: Real, const ROWS: usize> Default for BindingRows<T, ROWS> {
     fn default() -> Self {
         Self::new()
     }

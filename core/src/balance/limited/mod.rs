@@ -35,6 +35,6 @@ mod report;
 mod tick;
 
 pub use limits::{Ground, WrenchLimits, WrenchLimitsFault};
-pub use memory::LimitMemory;
+pub use memory::{BindingRows, LimitMemory};
 pub use report::{BrokenLimit, LimitReport, LimitSet, LimitedCommand};
 pub use tick::limited_tick;

@@ -2,8 +2,8 @@
 
 use super::WholeBodyLimit;
 use crate::Real;
-use crate::balance::LimitSet;
-use crate::qp::{ActiveRows, Status, Work};
+use crate::balance::{BindingRows, LimitSet};
+use crate::qp::{Status, Work};
 use crate::spatial::{Quaternion, Twist, Wrench};
 use nalgebra::Vector3;
 
@@ -20,35 +20,8 @@ pub struct WholeBodyState<T, const NQ: usize, const NV: usize> {
     pub velocities: [T; NV],
 }
 
-/// The limits that bound at the last tick, from which the next one begins. It belongs to the caller,
-/// one for each robot; a new one is a cold start, dearer and to the same answer.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WholeBodyMemory<T> {
-    pub(super) active: ActiveRows<T, ROWS>,
-}
-
-impl<T: Real> WholeBodyMemory<T> {
-    /// Before the first tick.
-    pub fn new() -> Self {
-        Self { active: ActiveRows::new() }
-    }
-
-    /// Rows of the program and their multipliers, to be kept.
-    pub fn rows(&self) -> impl Iterator<Item = (u8, T)> + '_ {
-        self.active.iter()
-    }
-
-    /// As [`rows`](Self::rows) gave it.
-    pub fn of(rows: impl IntoIterator<Item = (u8, T)>) -> Self {
-        Self { active: ActiveRows::of(rows) }
-    }
-}
-
-impl<T: Real> Default for WholeBodyMemory<T> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
+/// What one tick of the whole body leaves for the next.
+pub type WholeBodyMemory<T> = BindingRows<T, ROWS>;
 
 /// Torques, and what they come from.
 #[derive(Clone, Copy, Debug)]
