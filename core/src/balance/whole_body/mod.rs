@@ -39,6 +39,7 @@ mod reduced;
 mod report;
 mod robot;
 mod settings;
+mod task;
 mod tick;
 
 pub use fault::WholeBodyRobotFault;
@@ -46,4 +47,5 @@ pub use program::WholeBodyLimit;
 pub use report::{WholeBodyCommand, WholeBodyMemory, WholeBodyReport, WholeBodyState};
 pub use robot::{MOST_JOINTS, MOST_LEG_JOINTS, WholeBody, WholeBodyFoot};
 pub use settings::WholeBodySettings;
+pub use task::{FootTask, LinearTask, MotionTask, ObservedFoot, ObservedMotion};
 pub use tick::{WholeBodyController, whole_body_tick};
