@@ -10,7 +10,13 @@ use std::path::PathBuf;
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     let package = PathBuf::from(env::var("CARGO_MANIFEST_DIR").expect("cargo sets it"));
-    described_robot::leave_module(&package.join("robots/biped.rs"));
+    // A robot that the controller for legs of six joints does not balance.
+    println!("cargo::rustc-check-cfg=cfg(whole_body)");
+    if described_robot::leave_module(&package.join("robots/biped.rs"))
+        .contains(described_robot::WHOLE_BODY)
+    {
+        println!("cargo::rustc-cfg=whole_body");
+    }
     if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
         return;
     }

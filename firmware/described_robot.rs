@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 /// The robot.rs of the robot; that of the text unless said.
 const ROBOT: &str = "SUREFOOT_ROBOT";
 
+/// What stands in the robot.rs of a robot that the whole-body controller balances.
+pub const WHOLE_BODY: &str = "pub const NODES: usize";
+
 /// Leaves a module that names the robot's file, so that the compiler's messages name it too; tells its text.
 pub fn leave_module(of_the_text: &Path) -> String {
     println!("cargo::rerun-if-env-changed={ROBOT}");
@@ -24,9 +27,8 @@ pub fn leave_module(of_the_text: &Path) -> String {
     });
     if !text.contains("\npub mod firmware {") {
         refuse(
-            "it describes no robot to the firmware, which balances a floating body on legs of six \
-             revolute joints; `surefoot import` writes such a robot.rs beside a stand.toml, or says \
-             why it cannot"
+            "it describes no robot to the firmware; `surefoot import` writes such a robot.rs beside a \
+             stand.toml, or says why it cannot"
                 .to_owned(),
         );
     }

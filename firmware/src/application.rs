@@ -2,11 +2,10 @@
 
 use crate::board::{self, Counter, Link};
 use crate::control::{Measurement, Order, Posting, Receiving, Record, Sending, joint_limits};
-use crate::limiting;
 use crate::log::Log;
 use crate::no_init::{self, stack_bytes};
-use crate::profile::{Profile, stages};
 use crate::robot::{self, FRAME, JOINTS, LIMITS};
+use crate::{Limits, NEEDS_STANCE, Profile, limits, stance};
 use surefoot::balance::Mode;
 use surefoot_firmware::freshness::Freshness;
 use surefoot_firmware::orders::Orders;
@@ -19,7 +18,6 @@ type ToTarget = surefoot_link::ToTarget<JOINTS>;
 type FromTarget = surefoot_link::FromTarget<JOINTS>;
 type Sensors = surefoot_link::Sensors<JOINTS>;
 type Settings = surefoot_link::Settings<JOINTS>;
-type WrenchSettings = surefoot_link::WrenchSettings<JOINTS>;
 type Torques = surefoot_link::Torques<JOINTS>;
 
 /// Everything that idle owns.
@@ -38,6 +36,8 @@ pub struct Application {
     sender: Sender,
     pacing: Pacing,
     profile: Profile,
+    /// Since the last settings the tick was told of ground and motors.
+    has_stance: bool,
     log: Log,
     /// As of the last record.
     overruns: u32,
@@ -73,6 +73,7 @@ impl Application {
             sender: Sender::new(session),
             pacing: Pacing::LockStep,
             profile: Profile::new(),
+            has_stance: false,
             log: Log::open(),
             overruns: 0,
             cut_torques: 0,
@@ -122,6 +123,11 @@ impl Application {
     }
 
     fn frame(&mut self, frame: Result<ToTarget, Rejected>) {
+        let is_ours = |message: &ToTarget| message.is_of(JOINTS);
+        let frame = match frame {
+            Ok(message) if !is_ours(&message) => Err(Rejected::Malformed),
+            other => other,
+        };
         let answer = match frame {
             Err(rejected) => {
                 defmt::warn!("frame rejected: {}", defmt::Display2Format(&rejected));
@@ -143,13 +149,18 @@ impl Application {
             Ok(ToTarget::Hello) => FromTarget::Identity(self.identity()),
             Ok(ToTarget::Status) => FromTarget::Status(self.status()),
             Ok(ToTarget::Configure(settings)) => FromTarget::Acknowledged(self.configure(settings)),
-            Ok(ToTarget::Limit(settings)) => FromTarget::Acknowledged(self.limit(&settings)),
+            Ok(ToTarget::Limit(settings)) => {
+                FromTarget::Acknowledged(self.limit(limits(&settings)))
+            }
+            Ok(ToTarget::Stand(settings)) => {
+                FromTarget::Acknowledged(self.limit(stance(&settings)))
+            }
             Ok(ToTarget::SetPoint(pose)) => FromTarget::Acknowledged(self.set_point(pose)),
             Ok(ToTarget::Arm(robot)) => FromTarget::Acknowledged(self.arm(robot)),
             Ok(ToTarget::Disarm) => FromTarget::Acknowledged(self.order(Order::Disarm)),
             Ok(ToTarget::Profile(sensors)) => {
                 if self.on_their_way.is_standby() {
-                    FromTarget::Stages(stages(&self.profile, self.counter, &sensors.state()))
+                    self.profile.stages(self.counter, &sensors)
                 } else {
                     FromTarget::Acknowledged(Acknowledged::Busy)
                 }
@@ -187,6 +198,7 @@ impl Application {
         let answer = self.order(Order::Configure(settings));
         if answer == Acknowledged::Done {
             self.profile.configure(&settings);
+            self.has_stance = false;
             self.pacing = settings.pacing;
             self.freshness = Freshness::new(period_us, drift(self.clock));
         }
@@ -194,19 +206,27 @@ impl Application {
     }
 
     #[inline(never)]
-    fn limit(&mut self, settings: &WrenchSettings) -> Acknowledged {
+    fn limit(&mut self, limits: Result<Limits, Acknowledged>) -> Acknowledged {
         if !self.on_their_way.is_standby() {
             return Acknowledged::Busy;
         }
-        match limiting::limits(settings) {
+        let answer = match limits {
             Ok(limits) => self.order(Order::Limit(limits)),
             Err(answer) => answer,
-        }
+        };
+        self.has_stance |= answer == Acknowledged::Done;
+        answer
     }
 
     /// For a host that means this robot.
     fn arm(&mut self, robot: RobotId) -> Acknowledged {
-        if robot == robot::ID { self.order(Order::Arm) } else { Acknowledged::Robot(robot::ID) }
+        if robot != robot::ID {
+            Acknowledged::Robot(robot::ID)
+        } else if NEEDS_STANCE && !self.has_stance {
+            Acknowledged::NoStance
+        } else {
+            self.order(Order::Arm)
+        }
     }
 
     fn set_point(&mut self, pose: SetPoint) -> Acknowledged {

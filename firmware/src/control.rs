@@ -1,16 +1,15 @@
 //! The tick: what runs at the highest priority.
 
 use crate::board::{Counter, Motors, TickTimer, Watchdog, now_us};
-use crate::limiting::Limiting;
-use crate::robot::{self, GAINS, JOINTS, LEG, LEGS, LIMITS, ROBOT};
+use crate::robot::{self, FEET, JOINTS, LIMITS, ROW, ROWS};
+use crate::{Balance, Limits};
 use heapless::spsc::{Consumer, Producer, Queue};
 use surefoot::balance::{
-    Command, Controller, JointLimits, Mode, Reference, RobotState, StopReason, Supervisor,
-    WorkspaceForm, WrenchLimits, tick,
+    Command, JointLimits, Mode, Reference, RobotState, StopReason, Supervisor,
 };
 use surefoot::spatial::Quaternion;
 use surefoot_firmware::mailbox::{Mailbox, Reader, Writer};
-use surefoot_link::{Pacing, SetPoint, Settings, TickLimits, by_leg};
+use surefoot_link::{Pacing, SetPoint, Settings, TickLimits};
 
 /// Seconds between ticks until the host says otherwise.
 pub const PERIOD: f32 = 1e-3;
@@ -20,7 +19,7 @@ pub enum Order {
     /// New constants; in standby only.
     Configure(Settings<JOINTS>),
     /// Distribute within these limits; in standby only.
-    Limit(WrenchLimits<f32, LEGS>),
+    Limit(Limits),
     /// A pose to hold.
     SetPoint(SetPoint),
     /// Begin to balance.
@@ -37,9 +36,9 @@ pub struct Record {
     /// Whether it had a measurement.
     pub is_measured: bool,
     /// N·m
-    pub joint_torques: [[f32; LEG]; LEGS],
+    pub joint_torques: [[f32; ROW]; ROWS],
     /// The tick's answer, where there was one.
-    pub command: Option<Command<f32, LEGS>>,
+    pub command: Option<Command<f32, ROWS>>,
     /// After the tick.
     pub mode: Mode,
     /// Why it stopped.
@@ -76,9 +75,9 @@ pub struct Measurement {
     /// When it arrived, by [`now_us`].
     pub arrived_us: u32,
     /// What was measured.
-    pub state: RobotState<f32, LEGS>,
+    pub state: RobotState<f32, ROWS>,
     /// Which feet touch the ground.
-    pub contacts: [bool; LEGS],
+    pub contacts: [bool; FEET],
 }
 
 /// Holds the newest measurement.
@@ -99,10 +98,9 @@ pub struct Control {
     /// Longest time, µs, for which a measurement may have waited.
     patience_us: u32,
     records: Sending<Record>,
-    controller: Controller<'static, f32, LEGS>,
-    limiting: Option<Limiting>,
+    balance: Balance,
     reference: Reference<f32>,
-    supervisor: Supervisor<f32, LEGS>,
+    supervisor: Supervisor<f32, ROWS>,
     /// Cost that a tick may have.
     deadline: u32,
     overran: bool,
@@ -123,7 +121,7 @@ impl Control {
         reason = "each is handed over once, to be owned by the tick"
     )]
     pub fn new(
-        supervisor: Supervisor<f32, LEGS>,
+        supervisor: Supervisor<f32, ROWS>,
         counter: Counter,
         timer: TickTimer,
         motors: Motors,
@@ -141,8 +139,7 @@ impl Control {
             measurements,
             patience_us: u32::MAX,
             records,
-            controller: controller(),
-            limiting: None,
+            balance: Balance::new(),
             reference: robot::reference(),
             supervisor,
             deadline: Counter::cost_of(PERIOD),
@@ -173,16 +170,14 @@ impl Control {
             let waited = |newest: &&Measurement| now_us().wrapping_sub(newest.arrived_us);
             let measured = newest.filter(|newest| waited(newest) <= self.patience_us);
             is_measured = measured.is_some();
-            let Self { supervisor, controller, limiting, reference, .. } = self;
+            let Self { supervisor, balance, reference, .. } = self;
             let state = measured.map(|measured| &measured.state);
-            supervisor.step_with(state, reference, self.overran, |now| match (limiting, measured) {
-                (Some(limiting), Some(measured)) => {
-                    limiting.tick(controller, now, reference, &measured.contacts)
-                }
-                _ => tick(controller, now, reference),
+            let contacts = measured.map(|measured| &measured.contacts);
+            supervisor.step_with(state, reference, self.overran, |now| {
+                balance.tick(now, reference, contacts)
             })
         });
-        let limits = self.limiting.as_mut().and_then(|limiting| limiting.met.take());
+        let limits = self.balance.take_limits();
         let mode = self.supervisor.mode();
         self.motors.set(&supervised.joint_torques, mode != Mode::Standby && mode != Mode::Stopped);
         self.watchdog.feed();
@@ -224,7 +219,7 @@ impl Control {
             }
             Order::Limit(limits) => {
                 if self.supervisor.mode() == Mode::Standby {
-                    self.limiting = Some(Limiting::new(limits));
+                    self.balance.limit(limits);
                 }
             }
             Order::SetPoint(pose) => self.reference = reference(&pose),
@@ -245,8 +240,7 @@ impl Control {
         if self.supervisor.tighten(&LIMITS, &joint_limits, thresholds, *period).is_err() {
             return;
         }
-        self.limiting = None;
-        configure(&mut self.controller, settings);
+        self.balance.configure(settings);
         self.deadline = Counter::cost_of(settings.period);
         self.next_pacing = Some((settings.pacing, settings.period, settings.period_us()));
     }
@@ -269,24 +263,12 @@ impl Control {
     }
 }
 
-/// With the gains of the robot's file.
-pub fn controller() -> Controller<'static, f32, LEGS> {
-    Controller { gains: robot::gains(GAINS), ..Controller::new(&ROBOT) }
-}
-
-/// The controller's part of the settings.
-pub fn configure(controller: &mut Controller<'static, f32, LEGS>, settings: &Settings<JOINTS>) {
-    controller.gains = robot::gains(settings.gains);
-    controller.form = match settings.big_base {
-        None => WorkspaceForm::FixedFoot,
-        Some(factor) => WorkspaceForm::BigBase { factor },
-    };
-}
-
 /// The supervisor's part of the settings, joint by joint.
-pub fn joint_limits(settings: &Settings<JOINTS>) -> [[JointLimits<f32>; LEG]; LEGS] {
-    let none = JointLimits { torque: 0.0, angle: [0.0; 2], rate: 0.0 };
-    by_leg(&settings.joint_limits, none)
+pub fn joint_limits(settings: &Settings<JOINTS>) -> [[JointLimits<f32>; ROW]; ROWS] {
+    let mut limits = LIMITS.joints;
+    let joints = settings.joint_limits.iter();
+    limits.as_flattened_mut().iter_mut().zip(joints).for_each(|(to, given)| *to = *given);
+    limits
 }
 
 /// A pose to hold.

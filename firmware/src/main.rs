@@ -37,17 +37,30 @@ mod control;
 #[cfg(target_os = "none")]
 mod crash;
 #[cfg(target_os = "none")]
-mod limiting;
-#[cfg(target_os = "none")]
 mod log;
 #[cfg(target_os = "none")]
 mod logger;
 #[cfg(target_os = "none")]
 mod no_init;
-#[cfg(target_os = "none")]
+#[cfg(all(target_os = "none", not(whole_body)))]
 mod profile;
 #[cfg(target_os = "none")]
 mod robot;
+#[cfg(all(target_os = "none", not(whole_body)))]
+mod six_jointed;
+#[cfg(all(target_os = "none", whole_body))]
+mod whole_body;
+
+/// Whether a robot is armed only after it is known how it stands.
+#[cfg(target_os = "none")]
+const NEEDS_STANCE: bool = cfg!(whole_body);
+#[cfg(all(target_os = "none", whole_body))]
+use whole_body::{Balance, Profile, Stance as Limits, limits, stance};
+#[cfg(all(target_os = "none", not(whole_body)))]
+use {
+    profile::Profile,
+    six_jointed::{Balance, Limits, limits, stance},
+};
 
 #[cfg(target_os = "none")]
 #[rtic::app(device = crate::board::device, peripherals = true)]

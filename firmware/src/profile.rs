@@ -1,19 +1,20 @@
 //! What each stage of a tick costs, one after the other, for one measurement.
 
 use crate::board::Counter;
-use crate::control::{configure, controller, reference};
-use crate::robot::{self, JOINTS, LEGS, ROBOT};
+use crate::control::reference;
+use crate::robot::{self, JOINTS, ROBOT, ROWS};
+use crate::six_jointed::{configure, controller};
 use core::hint::black_box;
 use surefoot::balance::{
     Controller, Fault, Reference, RobotState, WorkspaceForm, big_base, central_body,
     desired_acceleration, fixed_foot_wrench, joint_torques, leg_kinematics, tick,
     wrench_distribution,
 };
-use surefoot_link::{SetPoint, Settings, Stages};
+use surefoot_link::{FromTarget, Sensors, SetPoint, Settings, Stages};
 
 /// The tick's constants, kept a second time for idle.
 pub struct Profile {
-    controller: Controller<'static, f32, LEGS>,
+    controller: Controller<'static, f32, ROWS>,
     reference: Reference<f32>,
 }
 
@@ -32,24 +33,24 @@ impl Profile {
     pub fn set_point(&mut self, pose: &SetPoint) {
         self.reference = reference(pose);
     }
-}
 
-/// Costs of all stages; zero from the stage on that finds the measurement faulty.
-#[inline(never)]
-pub fn stages(profile: &Profile, counter: Counter, state: &RobotState<f32, LEGS>) -> Stages {
-    let mut stages = Stages::default();
-    // A fault is an answer too, and ends the list.
-    let _ = each(profile, counter, black_box(state), &mut stages);
-    let begin = counter.now();
-    let _ = black_box(tick(&profile.controller, black_box(state), &profile.reference));
-    stages.tick = counter.since(begin);
-    stages
+    /// Costs of all stages; zero from the stage on that finds the measurement faulty.
+    #[inline(never)]
+    pub fn stages(&self, counter: Counter, sensors: &Sensors<JOINTS>) -> FromTarget<JOINTS> {
+        let (state, mut stages) = (sensors.state(), Stages::default());
+        // A fault is an answer too, and ends the list.
+        let _ = each(self, counter, black_box(&state), &mut stages);
+        let begin = counter.now();
+        let _ = black_box(tick(&self.controller, black_box(&state), &self.reference));
+        stages.tick = counter.since(begin);
+        FromTarget::Stages(stages)
+    }
 }
 
 fn each(
     profile: &Profile,
     counter: Counter,
-    state: &RobotState<f32, LEGS>,
+    state: &RobotState<f32, ROWS>,
     stages: &mut Stages,
 ) -> Result<(), Fault> {
     let Profile { controller, reference } = profile;

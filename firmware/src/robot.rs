@@ -7,34 +7,48 @@ mod of_file {
     pub use described::firmware::*;
 }
 
-pub use of_file::{GAINS, LEGS, SOLES};
-use surefoot::balance::{Gains, LeggedRobot, Reference, SafetyLimits};
+pub use of_file::GAINS;
+#[cfg(whole_body)]
+pub use of_file::{COORDINATES, FEET as ON_FEET, JOINTS, NODES, ROWS, TREE, VELOCITIES};
+#[cfg(not(whole_body))]
+pub use of_file::{LEGS as ROWS, LEGS as FEET, SOLES};
+use surefoot::balance::{Gains, Reference, SafetyLimits};
 use surefoot::spatial::{Quaternion, SymmetricMatrix3};
 use surefoot_link::{RobotId, frame_bytes};
 
 /// The robot, in flash.
-pub static ROBOT: LeggedRobot<f32, LEGS> = of_file::ROBOT;
+#[cfg(not(whole_body))]
+pub static ROBOT: surefoot::balance::LeggedRobot<f32, ROWS> = of_file::ROBOT;
 
 /// What its supervisor allows: settings may be tighter, and no wider.
-pub static LIMITS: SafetyLimits<f32, LEGS> = of_file::LIMITS;
+pub static LIMITS: SafetyLimits<f32, ROWS> = of_file::LIMITS;
 
-/// Joints of a leg.
-pub const LEG: usize = 6;
+/// Joints are supervised in rows of so many: a leg's, where all legs have six.
+pub const ROW: usize = 6;
 
 /// Joints of the robot, and of its messages.
-pub const JOINTS: usize = LEG * LEGS;
+#[cfg(not(whole_body))]
+pub const JOINTS: usize = ROW * ROWS;
+
+/// Feet that the controller has room for.
+#[cfg(whole_body)]
+pub const FEET: usize = ON_FEET.len();
 
 /// Bytes of the largest frame.
 pub const FRAME: usize = frame_bytes(JOINTS);
 
 /// What the other end knows it by.
+#[cfg(not(whole_body))]
 pub const ID: RobotId = RobotId::of(&of_file::ROBOT, &of_file::LIMITS);
+/// What the other end knows it by.
+#[cfg(whole_body)]
+pub const ID: RobotId = RobotId::of_tree(&TREE, NODES, &ON_FEET, &of_file::LIMITS);
 
 const _: () = assert!(
     ID.fingerprint == of_file::FINGERPRINT,
     "robot.rs is not as it was written: edit robot.toml, and let `surefoot import` write both"
 );
-const _: () = assert!(JOINTS <= u8::MAX as usize);
+const _: () = assert!(JOINTS <= u8::MAX as usize && JOINTS <= ROW * ROWS);
 
 /// Gains of a message or of the robot's file, by their diagonals.
 pub fn gains(diagonals: [[f32; 3]; 4]) -> Gains<f32> {

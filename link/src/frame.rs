@@ -4,14 +4,15 @@ use crate::sequence::FrameNumber;
 use serde::Serialize;
 
 /// Version of the messages. Both ends must have the same; it goes up when a message changes.
-pub const VERSION: u8 = 3;
+pub const VERSION: u8 = 4;
 
 /// Largest frame of robots with so many joints, in bytes on the wire, its end included: their settings,
 /// or the status, which is that of all robots.
 pub const fn frame_bytes(joints: usize) -> usize {
     const STATUS: usize = 512;
-    // Header, variant, checksum, end: 16; period, pacing, gains, big base: 58; thresholds: 56.
-    let plain = 130 + 16 * joints;
+    // Header, variant, checksum, end: 16; period, pacing, gains, big base: 58; thresholds: 56; number of
+    // joints: 2.
+    let plain = 132 + 16 * joints;
     let settings = plain + plain.div_ceil(254);
     if settings > STATUS { settings } else { STATUS }
 }

@@ -18,17 +18,18 @@
 #![forbid(unsafe_code)]
 
 mod frame;
+mod joints;
 mod limits;
 mod line;
 mod message;
-mod numbers;
 mod receiver;
 mod robot;
 mod sequence;
 mod status;
 
 pub use frame::{MOST_FRAME, Sender, VERSION, checksum, frame_bytes, most_wire_bytes};
-pub use limits::{MOST_FEET, TickLimits, WrenchSettings};
+pub use joints::Joints;
+pub use limits::{MOST_FEET, StanceSettings, TickLimits, WrenchSettings};
 pub use line::{BAUD, shortest_period_us, wire_us};
 pub use message::{
     Acknowledged, Counter, FromTarget, Identity, Injection, Pacing, Sensors, SetPoint, Settings,

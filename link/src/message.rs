@@ -1,10 +1,10 @@
 //! The messages, of a robot with so many joints. Numbers are single precision: what the target computes
-//! with, bit for bit. Joints stand in the robot's order: leg after leg, from hip to foot.
+//! with, bit for bit. Joints stand in the robot's order: on legs of six joints, leg after leg from hip to foot.
 //!
 //! Greetings are the same for robots of all sizes, so that ends of different robots can say so.
 
-use crate::limits::{TickLimits, WrenchSettings};
-use crate::numbers;
+use crate::joints::Joints;
+use crate::limits::{StanceSettings, TickLimits, WrenchSettings};
 use crate::robot::RobotId;
 use crate::status::{Clock, Crash, Status};
 use serde::{Deserialize, Serialize};
@@ -23,6 +23,9 @@ pub enum ToTarget<const JOINTS: usize> {
     Configure(Settings<JOINTS>),
     /// Distribute wrenches within these limits, from the next tick on; in standby only. Acknowledged.
     Limit(WrenchSettings<JOINTS>),
+    /// How a robot stands that the whole-body controller balances; in standby only, and it must be said
+    /// before such a robot is armed. Acknowledged; others refuse it, as such robots refuse `Limit`.
+    Stand(StanceSettings<JOINTS>),
     /// A pose to hold from now on. Acknowledged.
     SetPoint(SetPoint),
     /// Begin to balance this robot at the next tick. Acknowledged; refused by a target of another.
@@ -76,6 +79,8 @@ pub enum Acknowledged {
     Limit(LimitError),
     /// The target has been built for another robot: this one.
     Robot(RobotId),
+    /// It has not been told how the robot stands: see [`ToTarget::Stand`].
+    NoStance,
     /// This leg's sole is larger than the target's own robot has it.
     Sole(u8),
     /// This build does not do that.
@@ -133,8 +138,7 @@ pub struct Settings<const JOINTS: usize> {
     /// Factor of the printed big base; exactly fixed feet without one.
     pub big_base: Option<f32>,
     /// Limits of the joints: none wider than the target's own.
-    #[serde(with = "numbers")]
-    pub joint_limits: [JointLimits<f32>; JOINTS],
+    pub joint_limits: Joints<JointLimits<f32>, JOINTS>,
     /// Thresholds of the supervisor: none wider than the target's own.
     pub thresholds: Thresholds<f32>,
 }
@@ -158,11 +162,9 @@ pub struct Sensors<const JOINTS: usize> {
     /// Body twist, linear first.
     pub velocity: [f32; 6],
     /// rad
-    #[serde(with = "numbers")]
-    pub joint_angles: [f32; JOINTS],
+    pub joint_angles: Joints<f32, JOINTS>,
     /// rad/s
-    #[serde(with = "numbers")]
-    pub joint_rates: [f32; JOINTS],
+    pub joint_rates: Joints<f32, JOINTS>,
     /// Which feet touch the ground: bit 0 is the first. Looked at only within limits.
     pub contacts: u8,
 }
@@ -173,8 +175,7 @@ pub struct Torques<const JOINTS: usize> {
     /// Ticks since the last reset.
     pub tick: u32,
     /// N·m
-    #[serde(with = "numbers")]
-    pub joint_torques: [f32; JOINTS],
+    pub joint_torques: Joints<f32, JOINTS>,
     /// Wrench asked of the legs, force first; zero where there was no tick.
     pub desired_wrench: [f32; 6],
     /// Mode after the tick.
@@ -223,6 +224,24 @@ pub enum Injection {
     Exit,
 }
 
+impl<const JOINTS: usize> ToTarget<JOINTS> {
+    /// Whether it is of a robot with so many joints; where it names none, of any.
+    pub fn is_of(&self, joints: usize) -> bool {
+        let has = |sensors: &Sensors<JOINTS>| {
+            sensors.joint_angles.len() == joints && sensors.joint_rates.len() == joints
+        };
+        match self {
+            Self::Configure(settings) => settings.joint_limits.len() == joints,
+            Self::Limit(settings) => settings.torques.len() == joints,
+            Self::Stand(settings) => {
+                settings.torques.len() == joints && settings.posture.len() == joints
+            }
+            Self::Sensors { sensors, .. } | Self::Profile(sensors) => has(sensors),
+            _ => true,
+        }
+    }
+}
+
 impl<const JOINTS: usize> Sensors<JOINTS> {
     /// As the controller takes it; joints that the message does not have are at 0.
     pub fn state<const LEGS: usize>(&self) -> RobotState<f32, LEGS> {
@@ -260,9 +279,9 @@ pub fn by_leg<T: Copy, const LEGS: usize, const LEG: usize>(
 pub fn by_joint<T: Copy, const JOINTS: usize, const LEG: usize>(
     legs: &[[T; LEG]],
     missing: T,
-) -> [T; JOINTS] {
+) -> Joints<T, JOINTS> {
     let all = legs.as_flattened();
-    core::array::from_fn(|joint| all.get(joint).copied().unwrap_or(missing))
+    core::array::from_fn(|joint| all.get(joint).copied().unwrap_or(missing)).into()
 }
 
 impl<const JOINTS: usize> Settings<JOINTS> {
@@ -298,6 +317,7 @@ impl core::fmt::Display for Acknowledged {
             Self::Invalid => f.write_str("numbers out of range"),
             Self::Limit(error) => error.fmt(f),
             Self::Robot(robot) => write!(f, "it has been built for {robot}"),
+            Self::NoStance => f.write_str("it has not been told how the robot stands"),
             Self::Sole(leg) => write!(f, "the sole of leg {leg} is larger than its robot's"),
             Self::Unsupported => f.write_str("this firmware does not do that"),
             Self::TooFast(us) => {

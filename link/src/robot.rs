@@ -1,7 +1,8 @@
 //! Which robot an end of the link has been built for.
 
 use serde::{Deserialize, Serialize};
-use surefoot::balance::{LeggedRobot, SafetyLimits};
+use surefoot::balance::{LeggedRobot, SafetyLimits, WholeBodyFoot, whole_body_fingerprint};
+use surefoot::model::Tree;
 
 /// Joints of a leg.
 const LEG: usize = 6;
@@ -22,6 +23,23 @@ impl RobotId {
         limits: &SafetyLimits<f32, LEGS>,
     ) -> Self {
         Self { joints: (LEG * LEGS) as u8, fingerprint: robot.fingerprint(limits) }
+    }
+
+    /// Of the first `bodies` of a tree on its feet, with what its supervisor allows.
+    pub const fn of_tree<
+        const N: usize,
+        const NQ: usize,
+        const NV: usize,
+        const FEET: usize,
+        const ROWS: usize,
+    >(
+        tree: &Tree<f32, N, NQ, NV>,
+        bodies: usize,
+        feet: &[Option<WholeBodyFoot<f32>>; FEET],
+        limits: &SafetyLimits<f32, ROWS>,
+    ) -> Self {
+        let fingerprint = whole_body_fingerprint(tree, bodies, feet, limits);
+        Self { joints: bodies.saturating_sub(1) as u8, fingerprint }
     }
 }
 

@@ -74,7 +74,7 @@ fn traced(scene: &Scene, trace: &str) -> Result<(), Box<dyn std::error::Error>> 
     target.order("arm", &ToTarget::Arm(scene.robot().id().expect("legs of six joints")))?;
     let mut sensors = start(scene);
     // At rest, so that the same measurement will do again.
-    sensors.joint_rates = [0.0; JOINTS];
+    sensors.joint_rates = [0.0; JOINTS].into();
     for _ in 0..=TRACED {
         let torques = target.tick(&sensors)?;
         if torques.mode != Mode::Active {

@@ -96,7 +96,9 @@ impl Bench {
         {
             assert!(torque.abs() <= *limit, "{torque} N·m, and the limit is {limit}");
         }
-        self.torques = torques.joint_torques.map(f64::from);
+        for (to, torque) in self.torques.iter_mut().zip(&torques.joint_torques) {
+            *to = f64::from(*torque);
+        }
         let step = self.scene.integrator.step_s;
         let steps = (1.0 / (self.scene.controller.rate_hz * step)).round() as usize;
         for number in 0..steps {

@@ -235,7 +235,7 @@ fn a_brown_out() {
             let sensors = bench.sensors();
             let torques = bench.target.tick(&sensors).expect("an answer");
             assert_eq!(torques.mode, Mode::Standby);
-            assert_eq!(torques.joint_torques, [0.0; JOINTS]);
+            assert_eq!(torques.joint_torques, [0.0; JOINTS].into());
         }
         let log = bench.target.status().expect("an answer").log;
         if is_kept {
@@ -285,7 +285,7 @@ fn crashes() {
         }
         let sensors = bench.sensors();
         let torques = bench.target.tick(&sensors).expect("an answer");
-        assert_eq!((torques.mode, torques.joint_torques), (Mode::Standby, [0.0; JOINTS]));
+        assert_eq!((torques.mode, torques.joint_torques), (Mode::Standby, [0.0; JOINTS].into()));
         arm(&mut bench.target, &scene);
         assert_eq!(bench.target.tick(&sensors).expect("an answer").mode, Mode::Active);
     }
@@ -425,5 +425,5 @@ fn another_robot_is_not_armed() {
     };
     assert_eq!(answer, Acknowledged::Robot(own));
     let torques = target.tick(&Bench::sensors_of(&scene)).expect("an answer");
-    assert_eq!((torques.mode, torques.joint_torques), (Mode::Standby, [0.0; JOINTS]));
+    assert_eq!((torques.mode, torques.joint_torques), (Mode::Standby, [0.0; JOINTS].into()));
 }

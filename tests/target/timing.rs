@@ -24,7 +24,7 @@ fn random(random: &mut Pcg64Mcg, knees: [f32; 2]) -> Sensors {
             }),
             0.0,
         ),
-        joint_rates: std::array::from_fn(|_| within(5.0)),
+        joint_rates: std::array::from_fn(|_| within(5.0)).into(),
         contacts: 3,
     }
 }
@@ -108,7 +108,7 @@ fn no_state_makes_a_tick_long() {
     // A straight knee, found as late as can be: in the second leg.
     let straight = random(&mut rng, [-1.0, 0.0]);
     let mut still = straight;
-    still.joint_rates = [0.0; JOINTS];
+    still.joint_rates = [0.0; JOINTS].into();
     let torques = second_tick(&mut target, &scene, &still, &still);
     assert_ne!(torques.mode, Mode::Active);
     assert!(torques.cost <= *most);

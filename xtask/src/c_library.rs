@@ -39,6 +39,13 @@ pub fn run(options: &Options) -> Result<()> {
 /// # Returns
 /// The paths of the files.
 pub fn build(robot: &Robot, target: Option<&str>) -> Result<Vec<PathBuf>> {
+    let legs = robot.legs().with_context(|| {
+        format!(
+            "the library for C balances a floating body on legs of six revolute joints alone, and {} is \
+             another one; `surefoot import --legs-only` locks what no foot hangs from",
+            robot.name()
+        )
+    })?;
     let cargo = match target {
         Some(TARGET) => ArmToolchain::provide()?.cargo("build"),
         Some(other) => workspace::cargo(["build", "--target", other]),
@@ -65,7 +72,7 @@ pub fn build(robot: &Robot, target: Option<&str>) -> Result<Vec<PathBuf>> {
     let header = workspace::root().join("c/include/surefoot.h");
     files.push(copied(&header, &folder)?);
     let sizes = folder.join("surefoot_robot.h");
-    std::fs::write(&sizes, robot_header(robot))
+    std::fs::write(&sizes, robot_header(robot.name(), legs))
         .with_context(|| format!("{} cannot be written", sizes.display()))?;
     files.push(sizes);
     Ok(files)
@@ -79,8 +86,7 @@ fn copied(file: &Path, folder: &Path) -> Result<PathBuf> {
 }
 
 /// The sizes of a robot.
-fn robot_header(robot: &Robot) -> String {
-    let (name, legs) = (robot.name(), robot.legs());
+fn robot_header(name: &str, legs: usize) -> String {
     format!(
         "/* The robot {name}. Made with the library: both belong together. */\n\
          #ifndef SUREFOOT_ROBOT_H\n#define SUREFOOT_ROBOT_H\n\n\

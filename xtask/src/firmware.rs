@@ -28,7 +28,7 @@ pub struct Robot {
     source: PathBuf,
     /// Of the folder of its images.
     name: String,
-    legs: usize,
+    legs: Option<usize>,
 }
 
 impl Robot {
@@ -58,10 +58,7 @@ impl Robot {
             "{}: the name {name:?} is none for a folder; {EXPECTED}",
             file.display()
         );
-        let legs = legs(&text).with_context(|| {
-            format!("{} does not say how many legs there are; {EXPECTED}", file.display())
-        })?;
-        Ok(Self { source, name: name.to_owned(), legs })
+        Ok(Self { name: name.to_owned(), legs: legs(&text), source })
     }
 
     /// Its robot.rs.
@@ -74,8 +71,8 @@ impl Robot {
         &self.name
     }
 
-    /// How many legs it has.
-    pub fn legs(&self) -> usize {
+    /// How many legs of six joints it has, where all that moves are such.
+    pub fn legs(&self) -> Option<usize> {
         self.legs
     }
 }

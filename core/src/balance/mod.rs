@@ -41,6 +41,7 @@ pub use contact_wrenches::{
 pub use controller::{Controller, Gains, WorkspaceForm};
 pub use desired_wrench::{DesiredAcceleration, desired_acceleration};
 pub use fault::{Fault, FootLimit, Input};
+pub use fingerprint::whole_body_fingerprint;
 pub use foot_limits::{FootLimits, FootLimitsFault, Sole};
 pub use ground_wrench::{FixedFootWrenches, fixed_foot_wrenches, sole_axes};
 pub use joint_torques::joint_torques;

@@ -23,3 +23,6 @@ pub use rotation::{AxisTurn, Rotation};
 pub use symmetric::SymmetricMatrix3;
 pub use twist::Twist;
 pub use wrench::Wrench;
+
+/// For the constants of robots.
+pub use nalgebra::Vector3;

@@ -9,7 +9,7 @@
 //! | µs | TIM5, which goes round after 71 minutes |
 
 use super::{Counter, Link, MICROSECOND, TickTimer, stm32f4_clock};
-use crate::robot::{FRAME, LEG, LEGS};
+use crate::robot::{FRAME, ROW, ROWS};
 use core::sync::atomic::{AtomicU32, Ordering};
 use heapless::spsc::{Consumer, Producer, Queue};
 use surefoot_firmware::clock::divider;
@@ -126,7 +126,7 @@ pub struct Motors {
 impl Motors {
     /// Torques in N·m, by leg from hip to foot.
     #[inline(always)]
-    pub fn set(&mut self, _joint_torques: &[[f32; LEG]; LEGS], is_enabled: bool) {
+    pub fn set(&mut self, _joint_torques: &[[f32; ROW]; ROWS], is_enabled: bool) {
         self.port.bsrr().write(|w| if is_enabled { w.bs0().set_bit() } else { w.br0().set_bit() });
     }
 }

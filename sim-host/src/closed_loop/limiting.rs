@@ -72,8 +72,17 @@ impl LimitTally {
     pub(super) fn count_tick<T: Real>(&mut self, robot: &Robot, time_s: f64, tick: &TickLimits<T>) {
         self.count(tick.is_active, tick.is_unfinished);
         let Some(reason) = tick.worst else { return };
-        let leg = robot.legs.get(reason.foot).cloned().unwrap_or_default();
-        let (limit, joint) = named(reason.limit);
+        let (limit, mut joint) = named(reason.limit);
+        let of_leg = robot.legs.get(reason.foot);
+        let of = match joint {
+            // Its name says more than its number.
+            Some(k) if !robot.tree.is_six_jointed() => {
+                joint = None;
+                robot.joints.get(LEG * reason.foot + usize::from(k))
+            }
+            _ => of_leg,
+        };
+        let leg = of.cloned().unwrap_or_default();
         self.bound(WorstLimit { limit, leg, joint, time_s, relief: reason.relief.to_f64() });
     }
 

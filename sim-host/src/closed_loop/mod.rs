@@ -17,6 +17,7 @@ mod outcome;
 mod plant;
 mod run;
 mod sensing;
+mod standing;
 mod supervised;
 mod whole_body;
 

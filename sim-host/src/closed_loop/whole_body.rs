@@ -1,29 +1,23 @@
 //! The whole-body controller on the host: of robots whose legs have not six joints each, or that move other limbs.
 
 use super::controller::{Commanded, ControlFailure, Controller, measured};
-use super::limiting::{
-    FRICTION_SHARE, LimitTally, MOST_WEIGHTS, SOLE_SHARE, WorstLimit, friction, named,
-};
+use super::limiting::LimitTally;
+use super::standing::{FEET, Standing};
 use super::supervised::{recorded, remembered};
 use crate::plant::PlantState;
 use crate::record;
-use crate::robot::{Contacts, LEG, SharedRobot, stance};
-use crate::scene::{Feet, Scene};
+use crate::robot::{LEG, SharedRobot};
+use crate::scene::Scene;
 use nalgebra::Vector3;
 use surefoot::Real;
 use surefoot::balance::{
     Command, Fault, Gains, Reference, RobotState, SafetyLimits, StopReason, Supervisor, WholeBody,
-    WholeBodyCommand, WholeBodyController, WholeBodyFoot, WholeBodyLimit, WholeBodyMemory,
-    WholeBodySettings, WholeBodyState, whole_body_tick,
+    WholeBodyCommand, WholeBodyController, WholeBodyMemory, WholeBodySettings, WholeBodyState,
+    whole_body_tick,
 };
 use surefoot::model::Tree;
-use surefoot::qp::Status;
 use surefoot::spatial::{Quaternion, SymmetricMatrix3, Wrench};
-
-/// Feet that core has room for.
-const FEET: usize = 4;
-/// A foot that stands is pressed on with this share of the robot's weight.
-const LEAST_SHARE: f64 = 0.007;
+use surefoot_link::TickLimits;
 
 /// The controller in precision `T`.
 pub(super) struct WholeBodyHost<T, const N: usize, const NQ: usize, const NV: usize> {
@@ -56,12 +50,8 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
     /// # Panics
     /// For a scene that is not checked.
     pub fn new(tree: Tree<T, N, NQ, NV>, scene: &Scene) -> Self {
-        let robot = scene.robot().clone();
-        let start = scene.initial.state();
-        let height =
-            stance::on_floor(&robot, &start.positions[7..], Quaternion::identity()).positions[2];
-        let gravity = robot.tree.gravity().norm();
-        let mut settings = WholeBodySettings::<T, NV>::scaled(T::of(height), T::of(gravity), FEET);
+        let (robot, standing) = (scene.robot(), Standing::of(scene));
+        let mut settings = standing.settings::<T, NV>();
         let diagonal =
             |[x, y, z]: [f64; 3]| SymmetricMatrix3::diagonal(T::of(x), T::of(y), T::of(z));
         let controller = &scene.controller;
@@ -71,19 +61,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
             orientation: diagonal(controller.orientation_gain),
             angular_velocity: diagonal(controller.angular_velocity_gain),
         };
-        for (joint, (angle, limits)) in
-            start.positions[7..].iter().zip(&robot.limits.joints).enumerate()
-        {
-            settings.posture[6 + joint] = T::of(*angle);
-            settings.torques[6 + joint] = T::of(limits.torque);
-        }
-        let contacts = Contacts::of(&robot).expect("a robot with feet on legs");
-        let weight = robot.tree.mass() * gravity;
-        let friction = match &scene.feet {
-            Feet::Floor { floor, .. } => friction(floor),
-            Feet::Welded {} => 1.0,
-        };
-        let feet = contacts.feet.map(|foot| foot.map(|foot| grounded(&foot, weight, friction)));
+        let feet = standing.feet(&robot);
         let model = WholeBody::new(&tree, &feet).expect("a robot with feet on legs");
         Self {
             model,
@@ -108,24 +86,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
         let Self { tree, model, settings, reference, memory, contacts, .. } = self;
         let controller = WholeBodyController { tree, robot: model, settings };
         let command = whole_body_tick(&controller, state, reference, contacts, memory)?;
-        let report = &command.limits;
-        let is_unfinished = matches!(report.status, Status::BudgetSpent | Status::TooManyRows);
-        self.tally.count(report.is_limited(), is_unfinished);
-        if let Some((limit, relief)) = report.worst {
-            let relief = relief.to_f64();
-            let time_s = self.time_s;
-            let (limit, leg, joint) = match limit {
-                WholeBodyLimit::Foot { foot, limit } => {
-                    let (limit, joint) = named(limit);
-                    (limit, self.robot.legs.get(foot), joint)
-                }
-                WholeBodyLimit::Torque { velocity } => {
-                    ("torque", self.robot.joints.get(velocity - 6), None)
-                }
-            };
-            let leg = leg.cloned().unwrap_or_default();
-            self.tally.bound(WorstLimit { limit, leg, joint, time_s, relief });
-        }
+        self.tally.count_tick(&self.robot, self.time_s, &TickLimits::from(&command.limits));
         Ok(command)
     }
 
@@ -136,23 +97,6 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
             torques: own.map(|torque| torque.to_f64()).collect(),
             desired_wrench: desired_wrench.to_array().map(Real::to_f64),
         }
-    }
-}
-
-/// A foot with what a scene's floor can be counted on to give it.
-fn grounded<T: Real>(foot: &WholeBodyFoot<f64>, weight: f64, friction: f64) -> WholeBodyFoot<T> {
-    let limits = &foot.limits;
-    WholeBodyFoot {
-        body: foot.body,
-        reference: foot.reference.map(T::of),
-        axes: Quaternion::from_array(foot.axes.to_array().map(T::of)),
-        limits: surefoot::balance::ContactLimits {
-            least_force: T::of(LEAST_SHARE * weight),
-            greatest_force: T::of(MOST_WEIGHTS * weight),
-            friction: T::of(FRICTION_SHARE * friction),
-            patch: limits.patch.shrunk(SOLE_SHARE).rounded(),
-            torques: [],
-        },
     }
 }
 
@@ -214,20 +158,6 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
     }
 }
 
-/// The tree's state of joints in rows of six.
-fn of_rows<T: Real, const NQ: usize, const NV: usize, const ROWS: usize>(
-    state: &RobotState<T, ROWS>,
-) -> WholeBodyState<T, NQ, NV> {
-    let pose = state.position.iter().copied().chain(state.orientation.to_array());
-    let angles = state.joint_angles.as_flattened().iter().copied();
-    let rates = state.joint_rates.as_flattened().iter().copied();
-    let (mut positions, mut velocities) = ([T::zero(); NQ], [T::zero(); NV]);
-    positions.iter_mut().zip(pose.chain(angles)).for_each(|(to, x)| *to = x);
-    let twist = state.velocity.to_array().into_iter();
-    velocities.iter_mut().zip(twist.chain(rates)).for_each(|(to, x)| *to = x);
-    WholeBodyState { positions, velocities }
-}
-
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usize> Controller
     for SupervisedWholeBody<T, N, NQ, NV, ROWS>
 {
@@ -238,7 +168,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
         in_rows.velocities.resize(6 + ROWS * LEG, 0.0);
         let reference = inner.reference;
         let tick = |now: &RobotState<T, ROWS>| {
-            let command = inner.command(&of_rows(now))?;
+            let command = inner.command(&WholeBodyState::of_rows(now))?;
             let mut joint_torques = [[T::zero(); LEG]; ROWS];
             let all = joint_torques.as_flattened_mut().iter_mut();
             all.zip(&command.torques[6..]).for_each(|(to, torque)| *to = *torque);

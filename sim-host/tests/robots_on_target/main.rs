@@ -40,11 +40,12 @@ fn firmware(folder: &Path, robot: &str) {
 }
 
 /// It stands, and every number of its record is the host's.
-fn stands(name: &str, file: &str) {
+fn stands(name: &str, file: &str, more: &[&str]) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("robots-on-target");
     std::fs::create_dir_all(&folder).expect("a folder below the target directory");
     let file = example_robot(file);
-    said(&folder, &["import", file.to_str().expect("UTF-8"), "--legs-only", "--out", name]);
+    let import = ["import", file.to_str().expect("UTF-8"), "--out", name];
+    said(&folder, &[&import[..], more].concat());
     firmware(&folder, &format!("{name}/robot.rs"));
     let scene = format!("{name}/stand.toml");
     let (host, target) = (format!("{name}-host"), format!("{name}-target"));
@@ -75,12 +76,24 @@ fn image_name(folder: &Path, name: &str) -> String {
 
 #[test]
 #[ignore = "needs robot files and the target's compiler: `cargo xtask test --only firmware`"]
-fn g1_stands_on_the_target() {
-    stands("g1", "g1_description/urdf/g1_29dof_rev_1_0.urdf");
+fn g1_on_its_legs_stands_on_the_target() {
+    stands("g1-legs", "g1_description/urdf/g1_29dof_rev_1_0.urdf", &["--legs-only"]);
 }
 
 #[test]
 #[ignore = "needs robot files and the target's compiler: `cargo xtask test --only firmware`"]
-fn talos_stands_on_the_target() {
-    stands("talos", "talos_data/robots/talos_reduced.urdf");
+fn talos_on_its_legs_stands_on_the_target() {
+    stands("talos-legs", "talos_data/robots/talos_reduced.urdf", &["--legs-only"]);
+}
+
+#[test]
+#[ignore = "needs robot files and the target's compiler: `cargo xtask test --only firmware`"]
+fn g1_with_waist_and_arms_stands_on_the_target() {
+    stands("g1", "g1_description/urdf/g1_29dof_rev_1_0.urdf", &[]);
+}
+
+#[test]
+#[ignore = "needs robot files and the target's compiler: `cargo xtask test --only firmware`"]
+fn go1_stands_on_the_target() {
+    stands("go1", "go1_description/urdf/go1.urdf", &[]);
 }

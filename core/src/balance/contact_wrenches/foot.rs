@@ -11,11 +11,24 @@ use nalgebra::{Matrix3, Vector3};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPatch<T> {
     /// Centre, from the foot's reference point, m. Zero for an edge and a point.
-    pub(super) center: Vector3<T>,
+    pub(in crate::balance) center: Vector3<T>,
     /// Half the length along x, m.
     pub(in crate::balance) half_x: T,
     /// Half the length along y, m.
-    pub(super) half_y: T,
+    pub(in crate::balance) half_y: T,
+}
+
+impl ContactPatch<f32> {
+    /// With half its lengths along x and y, the reference point in its middle: an edge where one of them is
+    /// zero, a point where both are.
+    pub const fn centered([half_x, half_y]: [f32; 2]) -> Self {
+        Self { center: Vector3::new(0.0, 0.0, 0.0), half_x, half_y }
+    }
+
+    /// What [`centered`](Self::centered) makes it of.
+    pub const fn half_lengths(&self) -> [f32; 2] {
+        [self.half_x, self.half_y]
+    }
 }
 
 impl<T: Real> ContactPatch<T> {

@@ -6,7 +6,7 @@ use crate::Real;
 use crate::balance::robot::LEG;
 
 /// Limits of one joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JointLimits<T> {
     /// Largest torque either way, N·m. Larger ones are cut, and counted.

@@ -2,7 +2,7 @@
 
 use super::WholeBodyLimit;
 use crate::Real;
-use crate::balance::{BindingRows, LimitSet};
+use crate::balance::{BindingRows, LimitSet, RobotState};
 use crate::qp::{Status, Work};
 use crate::spatial::{Quaternion, Twist, Wrench};
 use nalgebra::Vector3;
@@ -18,6 +18,21 @@ pub struct WholeBodyState<T, const NQ: usize, const NV: usize> {
     pub positions: [T; NQ],
     /// Of the tree: body twist of the central body (m/s, rad/s), then rates of joints.
     pub velocities: [T; NV],
+}
+
+impl<T: Real, const NQ: usize, const NV: usize> WholeBodyState<T, NQ, NV> {
+    /// Of a state with joints in rows of six, in the tree's order. Joints that there are not are at zero.
+    pub fn of_rows<const ROWS: usize>(state: &RobotState<T, ROWS>) -> Self {
+        let RobotState { position, orientation, velocity, joint_angles, joint_rates } = state;
+        let pose = position.iter().copied().chain(orientation.to_array());
+        let angles = joint_angles.as_flattened().iter().copied();
+        let rates = joint_rates.as_flattened().iter().copied();
+        let (mut positions, mut velocities) = ([T::zero(); NQ], [T::zero(); NV]);
+        positions.iter_mut().zip(pose.chain(angles)).for_each(|(to, x)| *to = x);
+        let twist = velocity.to_array().into_iter();
+        velocities.iter_mut().zip(twist.chain(rates)).for_each(|(to, x)| *to = x);
+        Self { positions, velocities }
+    }
 }
 
 /// What one tick of the whole body leaves for the next.

@@ -2,13 +2,15 @@
 
 use super::{LinkError, Target, Transport, image};
 use crate::closed_loop::limiting::{Given, LimitTally};
+use crate::closed_loop::standing::Standing;
 use crate::closed_loop::{Commanded, ControlFailure, Controller, Costs};
 use crate::plant::PlantState;
 use crate::robot::{LEG, SharedRobot, with_tree};
 use crate::scene::{Scene, Workspace};
 use surefoot::balance::{Ground, JointLimits, Sole, StopReason, Thresholds};
 use surefoot_link::{
-    Clock, Counter, Pacing, Sensors, SetPoint, Settings, ToTarget, Torques, WrenchSettings,
+    Clock, Counter, Joints, Pacing, Sensors, SetPoint, Settings, StanceSettings, ToTarget, Torques,
+    WrenchSettings,
 };
 
 /// A target that balances a scene's plant, in lock step with it.
@@ -38,12 +40,10 @@ pub fn firmware_controller<T: Transport + 'static>(
 ) -> Result<Box<dyn Controller>, LinkError> {
     with_tree!(&scene.robot().tree, _tree, LEGS => {
         let target = Target::<{ LEG * LEGS }>::connect(transport)?;
-        if let Clock::Internal(reason) = target.identity().clock {
-            eprintln!("the board runs without its crystal: {reason}");
-        }
         Ok(Box::new(FirmwareController::new(target, scene)?))
-    }, _tree, _ROWS => {
-        Err(LinkError::NoFirmware { robot: scene.robot().name.clone() })
+    }, _tree, ROWS => {
+        let target = Target::<{ LEG * ROWS }>::connect(transport)?;
+        Ok(Box::new(FirmwareController::new(target, scene)?))
     })
 }
 
@@ -62,15 +62,25 @@ impl<const JOINTS: usize> FirmwareController<JOINTS> {
             let (name, command) = (robot.name.clone(), image::command(scene));
             return Err(LinkError::AnotherRobot { name, wanted, found, command });
         }
+        if let Clock::Internal(reason) = target.identity().clock {
+            eprintln!("the board runs without its crystal: {reason}");
+        }
         target.order("disarm", &ToTarget::Disarm)?;
         target.order("configure", &ToTarget::Configure(settings(scene)))?;
-        let limits = wrench_settings(scene);
-        if let Some(limits) = &limits {
-            target.order("limits of ground and motors", &ToTarget::Limit(limits.clone()))?;
-        }
+        let is_limited = if robot.tree.is_six_jointed() {
+            let limits = wrench_settings(scene);
+            if let Some(limits) = &limits {
+                target.order("limits of ground and motors", &ToTarget::Limit(limits.clone()))?;
+            }
+            limits.is_some()
+        } else {
+            target.order("how the robot stands", &ToTarget::Stand(stance_settings(scene)))?;
+            true
+        };
         target.order("set point", &ToTarget::SetPoint(set_point(scene)))?;
         target.order("arm", &ToTarget::Arm(wanted))?;
-        let (costs, stopped, tally) = (Vec::new(), None, limits.map(|_| LimitTally::default()));
+        let (costs, stopped) = (Vec::new(), None);
+        let tally = is_limited.then(LimitTally::default);
         let (time_s, contacts, limited) = (0.0, u8::MAX, Vec::new());
         Ok(Self { target, robot, costs, stopped, time_s, contacts, tally, limited })
     }
@@ -110,12 +120,13 @@ pub fn sensors<const JOINTS: usize>(state: &PlantState) -> Sensors<JOINTS> {
         std::array::from_fn(|i| all.get(from + i).copied().unwrap_or(f64::NAN) as f32)
     }
     let PlantState { positions, velocities } = state;
+    let joints = state.joints();
     Sensors {
         position: of(positions, 0),
         orientation: of(positions, 3),
         velocity: of(velocities, 0),
-        joint_angles: of(positions, 7),
-        joint_rates: of(velocities, 6),
+        joint_angles: Joints::new(of(positions, 7), joints),
+        joint_rates: Joints::new(of(velocities, 6), joints),
         contacts: u8::MAX,
     }
 }
@@ -133,7 +144,7 @@ pub fn settings<const JOINTS: usize>(scene: &Scene) -> Settings<JOINTS> {
             Workspace::FixedFoot => None,
             Workspace::BigBase(factor) => Some(factor as f32),
         },
-        joint_limits: std::array::from_fn(|joint| limits.get(joint).copied().unwrap_or(none)),
+        joint_limits: joints(&limits, none, scene),
         thresholds,
     }
 }
@@ -175,8 +186,34 @@ pub fn wrench_settings<const JOINTS: usize>(scene: &Scene) -> Option<WrenchSetti
             friction: ground.friction as f32,
         },
         soles: soles.iter().map(sole).collect(),
-        torques: std::array::from_fn(|k| torques.get(k).map_or(f32::NAN, |torque| *torque as f32)),
+        torques: joints(&single_precision_of(&torques), f32::NAN, scene),
     })
+}
+
+/// How the robot of a scene stands, in single precision.
+fn stance_settings<const JOINTS: usize>(scene: &Scene) -> StanceSettings<JOINTS> {
+    let Standing { height, gravity, ground, torques, posture } = Standing::of(scene);
+    StanceSettings {
+        ground: Ground {
+            least_force: ground.least_force as f32,
+            greatest_force: ground.greatest_force as f32,
+            friction: ground.friction as f32,
+        },
+        height: height as f32,
+        gravity: gravity as f32,
+        torques: joints(&single_precision_of(&torques), f32::NAN, scene),
+        posture: joints(&single_precision_of(&posture), f32::NAN, scene),
+    }
+}
+
+fn single_precision_of(all: &[f64]) -> Vec<f32> {
+    all.iter().map(|x| *x as f32).collect()
+}
+
+/// An entry for each joint of a scene's robot.
+fn joints<T: Copy, const JOINTS: usize>(all: &[T], missing: T, scene: &Scene) -> Joints<T, JOINTS> {
+    let entries = std::array::from_fn(|joint| all.get(joint).copied().unwrap_or(missing));
+    Joints::new(entries, scene.robot().joint_count())
 }
 
 /// A scene's set point in single precision.
@@ -222,7 +259,7 @@ impl<const JOINTS: usize> Controller for FirmwareController<JOINTS> {
             tally.count_tick(&self.robot, self.time_s, limits);
         }
         Ok(Commanded {
-            torques: torques.joint_torques.map(f64::from).to_vec(),
+            torques: torques.joint_torques.iter().map(|x| f64::from(*x)).collect(),
             desired_wrench: torques.desired_wrench.map(f64::from),
         })
     }

@@ -58,9 +58,9 @@ pub enum LinkError {
         /// What builds the images.
         command: String,
     },
-    /// There is no firmware for robots of its kind.
+    /// No firmware can be built for it.
     #[error(
-        "the firmware balances robots on legs of six revolute joints alone; {robot} is balanced on the host only"
+        "the robot {robot} has not limits for each of its joints, which its firmware would hold"
     )]
     NoFirmware {
         /// The scene's robot.
