@@ -246,6 +246,7 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "peak_torque_nm": peak_torque,
         "cut_torques": run.cut_torques,
         "limits": run.limits,
+        "gait": run.gait,
         "supervisor": (*controller != Place::Bare).then(|| json!({
             "stopped": run.stop.is_some(),
             "time_s": run.stop.map(|stop| stop.time_s),

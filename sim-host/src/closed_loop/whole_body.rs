@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 use surefoot::Real;
 use surefoot::balance::{
     Command, Fault, Gains, Reference, RobotState, SafetyLimits, StopReason, Supervisor, WholeBody,
-    WholeBodyCommand, WholeBodyController, WholeBodyFoot, WholeBodyLimit, WholeBodyMemory,
+    WholeBodyCommand, WholeBodyController, WholeBodyFoot, WholeBodyLimit, WholeBodyMemory, WholeBodyReport,
     WholeBodySettings, WholeBodyState, whole_body_tick,
 };
 use surefoot::model::Tree;
@@ -21,21 +21,21 @@ use surefoot::qp::Status;
 use surefoot::spatial::{Quaternion, SymmetricMatrix3, Wrench};
 
 /// Feet that core has room for.
-const FEET: usize = 4;
+pub(super) const FEET: usize = 4;
 /// A foot that stands is pressed on with this share of the robot's weight.
 const LEAST_SHARE: f64 = 0.007;
 
 /// The controller in precision `T`.
 pub(super) struct WholeBodyHost<T, const N: usize, const NQ: usize, const NV: usize> {
-    robot: SharedRobot,
-    tree: Tree<T, N, NQ, NV>,
-    model: WholeBody<T, FEET, NV>,
-    settings: WholeBodySettings<T, NV>,
+    pub(super) robot: SharedRobot,
+    pub(super) tree: Tree<T, N, NQ, NV>,
+    pub(super) model: WholeBody<T, FEET, NV>,
+    pub(super) settings: WholeBodySettings<T, NV>,
     reference: Reference<T>,
-    memory: WholeBodyMemory<T>,
+    pub(super) memory: WholeBodyMemory<T>,
     contacts: [bool; FEET],
-    time_s: f64,
-    tally: LimitTally,
+    pub(super) time_s: f64,
+    pub(super) tally: LimitTally,
 }
 
 /// The same with its supervisor, which takes joints in rows of six.
@@ -108,7 +108,12 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
         let Self { tree, model, settings, reference, memory, contacts, .. } = self;
         let controller = WholeBodyController { tree, robot: model, settings };
         let command = whole_body_tick(&controller, state, reference, contacts, memory)?;
-        let report = &command.limits;
+        self.count(&command.limits);
+        Ok(command)
+    }
+
+    /// What limits did in a tick.
+    pub(super) fn count(&mut self, report: &WholeBodyReport<T, FEET>) {
         let is_unfinished = matches!(report.status, Status::BudgetSpent | Status::TooManyRows);
         self.tally.count(report.is_limited(), is_unfinished);
         if let Some((limit, relief)) = report.worst {
@@ -126,11 +131,10 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
             let leg = leg.cloned().unwrap_or_default();
             self.tally.bound(WorstLimit { limit, leg, joint, time_s, relief });
         }
-        Ok(command)
     }
 
     /// The torques of the robot's own joints.
-    fn commanded(&self, torques: &[T], desired_wrench: Wrench<T>) -> Commanded {
+    pub(super) fn commanded(&self, torques: &[T], desired_wrench: Wrench<T>) -> Commanded {
         let own = torques.iter().take(self.robot.joint_count());
         Commanded {
             torques: own.map(|torque| torque.to_f64()).collect(),
@@ -157,7 +161,7 @@ fn grounded<T: Real>(foot: &WholeBodyFoot<f64>, weight: f64, friction: f64) -> W
 }
 
 /// A plant's state in the tree's size.
-fn padded<const M: usize, T: Real>(numbers: &[f64]) -> [T; M] {
+pub(super) fn padded<const M: usize, T: Real>(numbers: &[f64]) -> [T; M] {
     std::array::from_fn(|i| T::of(numbers.get(i).copied().unwrap_or(0.0)))
 }
 
@@ -215,7 +219,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
 }
 
 /// The tree's state of joints in rows of six.
-fn of_rows<T: Real, const NQ: usize, const NV: usize, const ROWS: usize>(
+pub(super) fn of_rows<T: Real, const NQ: usize, const NV: usize, const ROWS: usize>(
     state: &RobotState<T, ROWS>,
 ) -> WholeBodyState<T, NQ, NV> {
     let pose = state.position.iter().copied().chain(state.orientation.to_array());
