@@ -135,7 +135,7 @@ impl<T: Real, const FEET: usize> Stature<T, FEET> {
         let stature = Self {
             robot: *robot,
             height: standing.center_of_mass.z - ground,
-            hip_height: mean_of(|foot| foot.leg.z),
+            hip_height: -mean_of(|foot| foot.leg.z),
             // A pair's mean points differ by what rounding leaves.
             width: if width.abs() < robot.leg_length * T::of(1e-3) {
                 T::zero()

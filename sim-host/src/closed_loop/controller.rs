@@ -2,8 +2,8 @@
 
 use super::approximate::{ApproximateController, Approximation};
 use super::firmware::LinkError;
-use super::limiting::{LimitTally, Limiting};
 use super::gait::GaitTally;
+use super::limiting::{LimitTally, Limiting};
 use super::supervised::SupervisedController;
 use super::walking::WalkingHost;
 use super::whole_body::{SupervisedWholeBody, WholeBodyHost};

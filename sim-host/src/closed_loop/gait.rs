@@ -51,10 +51,8 @@ impl Gait {
             let rates = sample.velocities[6..].iter();
             sample.torques.iter().zip(rates).map(|(torque, rate)| (torque * rate).abs()).sum()
         };
-        let work: f64 = walked
-            .windows(2)
-            .map(|pair| power(&pair[0]) * (pair[1].time_s - pair[0].time_s))
-            .sum();
+        let work: f64 =
+            walked.windows(2).map(|pair| power(&pair[0]) * (pair[1].time_s - pair[0].time_s)).sum();
         let weight = robot.tree.mass() * robot.tree.gravity().norm();
         let height = samples.first().map_or(f64::INFINITY, |sample| sample.positions[2]);
         let tilt = |sample: &Sample| {

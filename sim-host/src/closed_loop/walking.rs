@@ -18,9 +18,7 @@ use surefoot::balance::{
 };
 use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, Wrench};
-use surefoot::walk::{self,
-    Planner, PlaneMotion, StandingRobot, Stature, WalkFault, WalkMemory,
-};
+use surefoot::walk::{self, PlaneMotion, Planner, StandingRobot, Stature, WalkFault, WalkMemory};
 
 /// Planner and controller in precision `T`, with a supervisor unless it is bare.
 pub(super) struct WalkingHost<

@@ -13,8 +13,8 @@ use nalgebra::Vector3;
 use surefoot::Real;
 use surefoot::balance::{
     Command, Fault, Gains, Reference, RobotState, SafetyLimits, StopReason, Supervisor, WholeBody,
-    WholeBodyCommand, WholeBodyController, WholeBodyFoot, WholeBodyLimit, WholeBodyMemory, WholeBodyReport,
-    WholeBodySettings, WholeBodyState, whole_body_tick,
+    WholeBodyCommand, WholeBodyController, WholeBodyFoot, WholeBodyLimit, WholeBodyMemory,
+    WholeBodyReport, WholeBodySettings, WholeBodyState, whole_body_tick,
 };
 use surefoot::model::Tree;
 use surefoot::qp::Status;

@@ -29,12 +29,14 @@ impl WalkerShape {
             let shape = robot.tree.body_shape(last)?;
             Some(poses.get(last)?.transform_point(shape.joint))
         });
-        let ahead = ankles.zip(&middles).map(|(ankle, middle)| ankle.map_or(0.0, |a| middle.x - a.x));
+        let ahead =
+            ankles.zip(&middles).map(|(ankle, middle)| ankle.map_or(0.0, |a| middle.x - a.x));
         let ahead = ahead.sum::<f64>() / middles.len().max(1) as f64;
         let has_area = feet.iter().all(|foot| box_of(foot).1.norm() > TOE);
         let forward = if has_area && ahead < -0.5 * TOE { std::f64::consts::PI } else { 0.0 };
         // From here on forward is +x.
-        let turned = |p: &Vector3<f64>| if forward > 0.0 { Vector2::new(-p.x, -p.y) } else { p.xy() };
+        let turned =
+            |p: &Vector3<f64>| if forward > 0.0 { Vector2::new(-p.x, -p.y) } else { p.xy() };
         let at: Vec<Vector2<f64>> = middles.iter().map(turned).collect();
         let center = at.iter().sum::<Vector2<f64>>() / at.len().max(1) as f64;
         let side = |p: &Vector2<f64>| {
