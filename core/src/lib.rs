@@ -13,6 +13,7 @@
 //! - [`qp`]: quadratic programs with soft rows, within a budget of work; no physics.
 //! - [`balance`]: the recursive workspace controller (Alg. 4.1 to 4.6) as one
 //!   [`tick`](balance::tick), from measured state to joint torques or a typed fault.
+//! - [`walk`]: steps in closed form, and what they ask of the controller of whole bodies.
 //!
 //! # Flow
 //! A result is a small struct which the next function demands by reference:
@@ -38,5 +39,6 @@ pub mod model;
 pub mod qp;
 mod scalar;
 pub mod spatial;
+pub mod walk;
 
 pub use scalar::Real;

@@ -59,10 +59,10 @@ pub use supervisor::{
 };
 pub use tick::{Command, tick};
 pub use whole_body::{
-    FootTask, LinearTask, MOST_JOINTS, MOST_LEG_JOINTS, MotionTask, ObservedFoot, ObservedMotion,
-    WholeBody, WholeBodyCommand, WholeBodyController, WholeBodyFoot, WholeBodyLimit,
-    WholeBodyMemory, WholeBodyReport, WholeBodyRobotFault, WholeBodySettings, WholeBodyState,
-    whole_body_tick,
+    FootTask, LinearTask, MOST_JOINTS, MOST_LEG_JOINTS, MotionTask, MotionWeights, ObservedBody,
+    ObservedFoot, ObservedMotion, WholeBody, WholeBodyCommand, WholeBodyController, WholeBodyFoot,
+    WholeBodyLimit, WholeBodyMemory, WholeBodyReport, WholeBodyRobotFault, WholeBodySettings,
+    WholeBodyState, observe, whole_body_motion_tick, whole_body_tick,
 };
 pub use workspace_dynamics::{WorkspaceDynamics, big_base, fixed_foot_dynamics, fixed_foot_wrench};
 pub use wrench_distribution::{FootWrenches, wrench_distribution};

@@ -1,7 +1,7 @@
 //! What `run` says: as text for people, as JSON for programs.
 
 use super::controller::Place;
-use crate::closed_loop::{Costs, CutTorques, Outcome, Peaks, Run, Scalar, WorstLimit};
+use crate::closed_loop::{Costs, CutTorques, Gait, Outcome, Peaks, Run, Scalar, WorstLimit};
 use crate::experiments::{printed_figures, reading};
 use crate::record::Sample;
 use crate::scene::{Scene, TorquesFrom};
@@ -129,7 +129,17 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
         }
         writeln!(out)?;
     }
-    if let Some(last) = run.samples.last() {
+    if let Some(gait) = &run.gait {
+        let Gait { speed_m_s, steps, distance_m, cost_of_transport, tilt_deg, .. } = gait;
+        write!(
+            out,
+            "  walked {distance_m:.2} m in {steps} steps, {speed_m_s:.3} m/s in the second half"
+        )?;
+        if let Some(cost) = cost_of_transport {
+            write!(out, "; cost of transport {cost:.2}")?;
+        }
+        writeln!(out, "; tilted by {tilt_deg:.1}° at most")?;
+    } else if let Some(last) = run.samples.last() {
         writeln!(
             out,
             "  final error: {:.4} mm, {:.5}°   (asked for: 1 mm, 0.1°)",
@@ -246,6 +256,7 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "peak_torque_nm": peak_torque,
         "cut_torques": run.cut_torques,
         "limits": run.limits,
+        "gait": run.gait,
         "supervisor": (*controller != Place::Bare).then(|| json!({
             "stopped": run.stop.is_some(),
             "time_s": run.stop.map(|stop| stop.time_s),

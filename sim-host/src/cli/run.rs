@@ -141,6 +141,9 @@ fn run_robot(scene: Scene, options: &Options) -> Result<ExitCode, String> {
     let folder = options.folder(&scene.name, saved.as_ref());
     keeps_record(&folder, saved.as_ref())?;
     options.check_save(scene.integrator.name == Method::Variational)?;
+    if !scene.walk.is_empty() {
+        walks_here(options)?;
+    }
     let warnings = scene.warnings();
     warn(&warnings);
     // Not after the run, which would be lost.
@@ -177,6 +180,19 @@ fn run_robot(scene: Scene, options: &Options) -> Result<ExitCode, String> {
         return Ok(say(&format!("{:#}\n", report::json(&report, &files)), status));
     }
     Ok(say(&report::text(&report, &files), status))
+}
+
+/// Refuses what a walk cannot be asked for yet.
+fn walks_here(options: &Options) -> Result<(), String> {
+    if options.controller.place == Place::Firmware {
+        return Err(
+            "--controller firmware: the target's controller stands, it does not walk".into()
+        );
+    }
+    if options.save.is_some() {
+        return Err("--save: what a walk remembers is not saved".into());
+    }
+    Ok(())
 }
 
 /// Refuses a saved run of another motion.
@@ -241,9 +257,9 @@ fn with_options(mut scene: Scene, options: &Options) -> Result<(Scene, String), 
     Ok((scene, reason))
 }
 
-/// The same scene in the other reading of the first instant; welded feet have only one.
+/// The same scene in the other reading of the first instant; welded feet, and robots that walk, have only one.
 fn other_reading(scene: &Scene) -> Option<Scene> {
-    if !matches!(scene.feet, Feet::Floor { .. }) {
+    if !matches!(scene.feet, Feet::Floor { .. }) || !scene.walk.is_empty() {
         return None;
     }
     let mut other = scene.clone();

@@ -2,8 +2,10 @@
 
 use super::approximate::{ApproximateController, Approximation};
 use super::firmware::LinkError;
+use super::gait::GaitTally;
 use super::limiting::{LimitTally, Limiting};
 use super::supervised::SupervisedController;
+use super::walking::WalkingHost;
 use super::whole_body::{SupervisedWholeBody, WholeBodyHost};
 use crate::plant::PlantState;
 use crate::record::SupervisorMemory;
@@ -64,6 +66,16 @@ pub trait Controller {
     /// Tells it before a tick which feet touch the ground, and the time, s.
     fn touch(&mut self, time_s: f64, feet: &[bool]) {
         let _ = (time_s, feet);
+    }
+
+    /// Tells it before a tick the time (s) and how the ground presses on each foot, N.
+    fn press(&mut self, time_s: f64, normal_forces: &[f64]) {
+        let _ = (time_s, normal_forces);
+    }
+
+    /// What it has walked so far, if it walks.
+    fn gait(&self) -> Option<GaitTally> {
+        None
     }
 
     /// What limits of ground and motors have done so far, if it knows any.
@@ -146,6 +158,9 @@ pub struct HostController<T, const LEGS: usize> {
 
 /// The controller of a scene, under its supervisor: what runs on the target.
 pub fn controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
+    if !scene.walk.is_empty() {
+        return walking(scene, scalar, true);
+    }
     let robot = scene.robot();
     with_tree!(&robot.tree, tree, LEGS => {
         let (model, limits) = (legged::<_, _, _, LEGS>(tree), limits::<LEGS>(&robot));
@@ -176,6 +191,9 @@ pub fn controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
 
 /// The same without a supervisor.
 pub fn bare_controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
+    if !scene.walk.is_empty() {
+        return walking(scene, scalar, false);
+    }
     let robot = scene.robot();
     with_tree!(&robot.tree, tree, LEGS => {
         let model = legged::<_, _, _, LEGS>(tree);
@@ -187,6 +205,31 @@ pub fn bare_controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
         Scalar::F32 => Box::new(WholeBodyHost::new(tree.to_f32(), scene)),
         Scalar::F64 => Box::new(WholeBodyHost::new(*tree, scene)),
     })
+}
+
+/// The controller of a scene with commands to walk.
+fn walking(scene: &Scene, scalar: Scalar, is_supervised: bool) -> Box<dyn Controller> {
+    fn boxed<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usize>(
+        tree: Tree<T, N, NQ, NV>,
+        limits: Option<balance::SafetyLimits<T, ROWS>>,
+        scene: &Scene,
+    ) -> Box<dyn Controller> {
+        Box::new(WalkingHost::<T, N, NQ, NV, ROWS>::new(tree, limits, scene))
+    }
+    let robot = scene.robot();
+    macro_rules! of_rows {
+        ($tree:expr, $rows:ident) => {{
+            let limits = robot.limits.in_rows::<$rows>();
+            let limits = limits.filter(|_| is_supervised);
+            match scalar {
+                Scalar::F32 => {
+                    boxed::<f32, _, _, _, $rows>($tree.to_f32(), limits.map(|x| x.to_f32()), scene)
+                }
+                Scalar::F64 => boxed::<f64, _, _, _, $rows>(*$tree, limits, scene),
+            }
+        }};
+    }
+    with_tree!(&robot.tree, tree, ROWS => of_rows!(tree, ROWS), tree, ROWS => of_rows!(tree, ROWS))
 }
 
 /// The same with something left out; feet are held exactly, whatever the scene says.

@@ -10,6 +10,7 @@ mod errors;
 mod estimate;
 mod events;
 pub mod firmware;
+mod gait;
 mod lag;
 mod limiting;
 mod memory;
@@ -19,6 +20,7 @@ mod run;
 mod sensing;
 mod standing;
 mod supervised;
+mod walking;
 mod whole_body;
 
 pub use acting::{CutTorques, Motors};
@@ -28,6 +30,7 @@ pub use controller::{
     Commanded, ControlFailure, Controller, Costs, HostController, Scalar, approximate_controller,
     bare_controller, controller, measured,
 };
+pub use gait::{Gait, GaitTally};
 pub use limiting::{LimitTally, WorstLimit};
 pub use outcome::{Failure, Outcome, Peak, Peaks};
 pub use plant::plant;

@@ -7,13 +7,13 @@ use super::events::Watch;
 use super::memory::{memory, remember};
 use super::plant::plant;
 use super::{
-    Commanded, Controller, Costs, CutTorques, Failure, LimitTally, Motors, Outcome, Sensors,
+    Commanded, Controller, Costs, CutTorques, Failure, Gait, LimitTally, Motors, Outcome, Sensors,
 };
 use crate::contact::ContactState;
 use crate::follow::Follow;
 use crate::integrators::Progress;
 use crate::multibody::SystemError;
-use crate::plant::{PerPoint, Plant, PlantState};
+use crate::plant::{Observation, PerPoint, Plant, PlantState};
 use crate::record::{Event, MotionIdentity, Sample, SavedMotion, SavedRun};
 use crate::robot::{LEG, Robot};
 use crate::scene::{Scene, TorquesFrom};
@@ -51,6 +51,8 @@ pub struct Run {
     pub costs: Option<Costs>,
     /// What limits of ground and motors have done, where the controller knows them.
     pub limits: Option<LimitTally>,
+    /// How it walked, if it walked.
+    pub gait: Option<Gait>,
     /// What the motors could not give.
     pub cut_torques: CutTorques,
     /// That the controller's supervisor has stopped the robot.
@@ -113,6 +115,7 @@ pub fn run_plant(
     run.wall = started.elapsed();
     run.costs = controller.costs();
     run.limits = controller.limits();
+    run.gait = controller.gait().map(|tally| Gait::of(&tally, &run, &scene.robot()));
     run
 }
 
@@ -133,6 +136,7 @@ impl Run {
             saved: None,
             costs: None,
             limits: None,
+            gait: None,
             cut_torques: CutTorques::default(),
             stop: None,
         }
@@ -220,17 +224,22 @@ fn advance(
             feet.extend(contacts.iter().map(|foot| foot.iter().any(|s| *s != ContactState::Free)));
             controller.touch(time, &feet);
         }
+        let seen = plant.observe().map_err(|failure| step_failure(time, failure))?;
+        controller.press(time, &seen.foot_forces);
         let command = command(sensors.read(&state), controller, touched, time)?;
         if run.stop.is_none() {
             run.stop = controller.stopped().map(|reason| Stop { time_s: time, reason });
         }
         motors.command(&command.torques, time);
         run.cut_torques = motors.cut();
-        sample(plant, scene, &state, (&command.desired_wrench, motors.over_step(0)), time, run)?;
+        let sent = (&command.desired_wrench, motors.over_step(0));
+        sample(seen, scene, &state, sent, time, run);
         fallen(&state, robot.fallen_height, time)?;
         if is_last {
             run.is_interrupted = is_interrupted;
-            run.saved = plant.checkpoint().map(|checkpoint| SavedRun {
+            // What a walk remembers is not saved.
+            let checkpoint = plant.checkpoint().filter(|_| scene.walk.is_empty());
+            run.saved = checkpoint.map(|checkpoint| SavedRun {
                 scene: scene.name.clone(),
                 motion: MotionIdentity::of_robot(scene),
                 scalar: None,
@@ -280,15 +289,14 @@ fn command(
 }
 
 fn sample(
-    plant: &mut dyn Plant,
+    seen: Observation,
     scene: &Scene,
     state: &PlantState,
     (desired_wrench, torques): (&[f64; 6], &[f64]),
     time_s: f64,
     run: &mut Run,
-) -> Result<(), Failure> {
+) {
     let (position_error, orientation_error) = set_point_errors(state, &scene.set_point);
-    let seen = plant.observe().map_err(|failure| step_failure(time_s, failure))?;
     run.constraint_max = run.constraint_max.max(seen.constraint);
     run.samples.push(Sample {
         time_s,
@@ -304,7 +312,6 @@ fn sample(
         corner_forces: seen.corner_forces,
         block: seen.block,
     });
-    Ok(())
 }
 
 fn fallen(state: &PlantState, lowest: f64, time: f64) -> Result<(), Failure> {

@@ -12,8 +12,8 @@ use nalgebra::Vector3;
 use surefoot::Real;
 use surefoot::balance::{
     Command, Fault, Gains, Reference, RobotState, SafetyLimits, StopReason, Supervisor, WholeBody,
-    WholeBodyCommand, WholeBodyController, WholeBodyMemory, WholeBodySettings, WholeBodyState,
-    whole_body_tick,
+    WholeBodyCommand, WholeBodyController, WholeBodyMemory, WholeBodyReport, WholeBodySettings,
+    WholeBodyState, whole_body_tick,
 };
 use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, SymmetricMatrix3, Wrench};
@@ -21,15 +21,15 @@ use surefoot_link::TickLimits;
 
 /// The controller in precision `T`.
 pub(super) struct WholeBodyHost<T, const N: usize, const NQ: usize, const NV: usize> {
-    robot: SharedRobot,
-    tree: Tree<T, N, NQ, NV>,
-    model: WholeBody<T, FEET, NV>,
-    settings: WholeBodySettings<T, NV>,
+    pub(super) robot: SharedRobot,
+    pub(super) tree: Tree<T, N, NQ, NV>,
+    pub(super) model: WholeBody<T, FEET, NV>,
+    pub(super) settings: WholeBodySettings<T, NV>,
     reference: Reference<T>,
-    memory: WholeBodyMemory<T>,
+    pub(super) memory: WholeBodyMemory<T>,
     contacts: [bool; FEET],
-    time_s: f64,
-    tally: LimitTally,
+    pub(super) time_s: f64,
+    pub(super) tally: LimitTally,
 }
 
 /// The same with its supervisor, which takes joints in rows of six.
@@ -86,12 +86,17 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
         let Self { tree, model, settings, reference, memory, contacts, .. } = self;
         let controller = WholeBodyController { tree, robot: model, settings };
         let command = whole_body_tick(&controller, state, reference, contacts, memory)?;
-        self.tally.count_tick(&self.robot, self.time_s, &TickLimits::from(&command.limits));
+        self.count(&command.limits);
         Ok(command)
     }
 
+    /// What limits did in a tick.
+    pub(super) fn count(&mut self, report: &WholeBodyReport<T, FEET>) {
+        self.tally.count_tick(&self.robot, self.time_s, &TickLimits::from(report));
+    }
+
     /// The torques of the robot's own joints.
-    fn commanded(&self, torques: &[T], desired_wrench: Wrench<T>) -> Commanded {
+    pub(super) fn commanded(&self, torques: &[T], desired_wrench: Wrench<T>) -> Commanded {
         let own = torques.iter().take(self.robot.joint_count());
         Commanded {
             torques: own.map(|torque| torque.to_f64()).collect(),
@@ -101,7 +106,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
 }
 
 /// A plant's state in the tree's size.
-fn padded<const M: usize, T: Real>(numbers: &[f64]) -> [T; M] {
+pub(super) fn padded<const M: usize, T: Real>(numbers: &[f64]) -> [T; M] {
     std::array::from_fn(|i| T::of(numbers.get(i).copied().unwrap_or(0.0)))
 }
 

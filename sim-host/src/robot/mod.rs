@@ -13,6 +13,7 @@ mod sized_tree;
 mod soles;
 pub mod stance;
 mod stand_scene;
+mod walker;
 
 pub use biped::{SMALL_BODIES, biped};
 pub(crate) use contacts::Contacts;
@@ -21,6 +22,7 @@ pub(crate) use sized_tree::with_tree;
 pub use sized_tree::{LEG, MOST_LEGS, SizedTree, Start};
 pub use soles::NoSole;
 pub use stand_scene::stand_scene;
+pub(crate) use walker::WalkerShape;
 
 use crate::multibody::Side;
 use crate::picture::Solid;

@@ -5,6 +5,7 @@ use super::check_robot::{of_file, reach};
 use super::differences::check_plant;
 use super::rung::check_model;
 use super::terrain::check_terrain;
+use super::walk::check_walk;
 use super::{Distribution, Feet, Scene, SceneError, Workspace};
 use crate::integrators::Method;
 use nalgebra::Vector3;
@@ -24,6 +25,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     check_terrain(scene)?;
     check_plant(scene)?;
     check_model(scene)?;
+    check_walk(scene)?;
     reach(scene)
 }
 

@@ -18,6 +18,7 @@ mod robot_entry;
 mod rung;
 mod source;
 mod terrain;
+mod walk;
 mod warnings;
 
 pub use builtin::{BUILT_IN, BuiltIn, built_in};
@@ -32,6 +33,7 @@ pub use multibody::{
 pub use robot_entry::RobotEntry;
 pub use rung::{LUMPED_DEVIATION_M, Matters, ModelChoice, Rung};
 pub use terrain::{Patch, Terrain};
+pub use walk::WalkCommand;
 
 use crate::contact::Floor;
 use crate::integrators::Method;
@@ -83,6 +85,10 @@ pub struct Scene {
     /// Pushes against the central body; none unless said.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pushes: Vec<Push>,
+    /// Commands to walk, in order of their times; with any, the robot walks and steps, and `set_point` and the
+    /// controller's gains are not read. None unless said.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub walk: Vec<WalkCommand>,
     /// A block thrown at the central body; none unless said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub block: Option<Block>,

@@ -68,7 +68,9 @@ mod rows;
 pub use foot::{ContactFoot, ContactLimits, ContactPatch};
 pub use program::ContactProgram;
 pub use relief::Reason;
+pub(in crate::balance) use relief::{greatest, reliefs};
 pub use rows::ContactLimit;
+pub(in crate::balance) use rows::{first_row, split_row};
 
 use crate::Real;
 

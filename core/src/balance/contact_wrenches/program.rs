@@ -2,7 +2,7 @@
 
 use super::super::least_norm::LeastNorm;
 use super::metric::Metric;
-use super::rows::STRIDE;
+use super::rows::{first_row, split_row};
 use super::{ContactFoot, ContactLimit, ContactWeights};
 use crate::Real;
 use crate::qp::{Program, ProgramCost, Search, Work};
@@ -106,7 +106,7 @@ impl<'a, T: Real, const FEET: usize, const JOINTS: usize> ContactProgram<'a, T, 
 
     /// Foot and limit of a row.
     pub fn limit_of(&self, row: u8) -> (usize, ContactLimit) {
-        let (foot, row) = Self::split_row(row);
+        let (foot, row) = split_row(row);
         (foot, ContactLimit::of_row(row, JOINTS as u8))
     }
 
@@ -114,18 +114,6 @@ impl<'a, T: Real, const FEET: usize, const JOINTS: usize> ContactProgram<'a, T, 
     #[inline(always)]
     pub(super) fn foot(&self, foot: usize) -> Option<&ContactFoot<'a, T, JOINTS>> {
         self.feet.get(foot)?.as_ref()
-    }
-
-    /// Number of the first row of foot `foot`.
-    #[inline(always)]
-    fn first_row(foot: usize) -> u8 {
-        (foot as u8).wrapping_mul(STRIDE)
-    }
-
-    /// Foot and row of it.
-    #[inline(always)]
-    fn split_row(row: u8) -> (usize, u8) {
-        (usize::from(row / STRIDE), row % STRIDE)
     }
 }
 
@@ -203,7 +191,7 @@ impl<T: Real, const FEET: usize, const JOINTS: usize> Program<T>
 
     #[inline(always)]
     fn row(&self, row: u8) -> Option<(OnFoot<T>, T)> {
-        let (foot, row) = Self::split_row(row);
+        let (foot, row) = split_row(row);
         let (wrench, bound) = self.feet.get(foot)?.as_ref()?.row(row)?;
         Some((OnFoot { foot, wrench }, bound))
     }
@@ -224,7 +212,7 @@ impl<T: Real, const FEET: usize, const JOINTS: usize> Program<T>
     fn scan(&self, x: &[Wrench<T>; FEET], search: &mut Search<'_, T>) {
         for (number, (foot, w)) in self.feet.iter().zip(x).enumerate() {
             if let Some(foot) = foot {
-                foot.scan(w, Self::first_row(number), search);
+                foot.scan(w, first_row(number), search);
             }
         }
     }

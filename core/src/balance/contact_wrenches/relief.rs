@@ -1,6 +1,7 @@
 //! Which limit an answer owes most to.
 
-use super::{ContactLimit, ContactProgram};
+use super::rows::split_row;
+use super::{ContactLimit, ContactLimits, ContactProgram};
 use crate::Real;
 use crate::qp::ActiveRows;
 use crate::spatial::Wrench;
@@ -26,27 +27,14 @@ impl<T: Real, const FEET: usize, const JOINTS: usize> ContactProgram<'_, T, FEET
         wrenches: &[Wrench<T>; FEET],
         active: &ActiveRows<T, K>,
     ) -> impl Iterator<Item = Reason<T>> + use<T, FEET, JOINTS, K> {
-        let mut normal_forces = [T::zero(); FEET];
-        for ((force, foot), wrench) in normal_forces.iter_mut().zip(0..).zip(wrenches) {
-            if let Some(at) = self.foot(foot) {
-                *force = at.rotation.column(2).dot(&wrench.force) + at.carried.force.z;
-            }
+        let mut feet = [None; FEET];
+        for ((to, foot), wrench) in feet.iter_mut().zip(0..).zip(wrenches) {
+            *to = self.foot(foot).map(|at| {
+                let force = at.rotation.column(2).dot(&wrench.force) + at.carried.force.z;
+                (at.limits, force)
+            });
         }
-        // Sums over each limit's rows, in one pass over all rows.
-        let mut reliefs = [[None; LIMITS]; FEET];
-        for (row, multiplier) in active.iter() {
-            let (foot, limit) = self.limit_of(row);
-            let (Some(at), Some(fz)) = (self.foot(foot), normal_forces.get(foot)) else { continue };
-            if let Some(relief) = reliefs.get_mut(foot).and_then(|all| all.get_mut(place(limit))) {
-                let before = relief.unwrap_or_else(T::zero);
-                *relief = Some(before + multiplier * at.limit_term(limit, row, *fz));
-            }
-        }
-        reliefs.into_iter().enumerate().flat_map(|(foot, reliefs)| {
-            reliefs.into_iter().enumerate().filter_map(move |(place, relief)| {
-                relief.map(|relief| Reason { foot, limit: limit(place), relief })
-            })
-        })
+        reliefs(&feet, active)
     }
 
     /// The greatest of them; `None` where nothing binds.
@@ -56,11 +44,49 @@ impl<T: Real, const FEET: usize, const JOINTS: usize> ContactProgram<'_, T, FEET
         wrenches: &[Wrench<T>; FEET],
         active: &ActiveRows<T, K>,
     ) -> Option<Reason<T>> {
-        self.reliefs(wrenches, active).fold(None, |most: Option<Reason<T>>, one| match most {
-            Some(most) if most.relief >= one.relief => Some(most),
-            _ => Some(one),
-        })
+        greatest(self.reliefs(wrenches, active))
     }
+}
+
+/// Every limit of feet that has a row in force, with its relief, once each: from the limits of those that
+/// press, with the ground's force normal to their soles.
+#[inline(always)]
+pub(in crate::balance) fn reliefs<
+    T: Real,
+    const FEET: usize,
+    const JOINTS: usize,
+    const K: usize,
+>(
+    feet: &[Option<(&ContactLimits<T, JOINTS>, T)>; FEET],
+    active: &ActiveRows<T, K>,
+) -> impl Iterator<Item = Reason<T>> + use<T, FEET, JOINTS, K> {
+    // Sums over each limit's rows, in one pass over all rows.
+    let mut reliefs = [[None; LIMITS]; FEET];
+    for (row, multiplier) in active.iter() {
+        let (foot, own) = split_row(row);
+        let limit = ContactLimit::of_row(own, JOINTS as u8);
+        let Some(Some((limits, fz))) = feet.get(foot) else { continue };
+        if let Some(relief) = reliefs.get_mut(foot).and_then(|all| all.get_mut(place(limit))) {
+            let before = relief.unwrap_or_else(T::zero);
+            *relief = Some(before + multiplier * limits.limit_term(limit, row, *fz));
+        }
+    }
+    reliefs.into_iter().enumerate().flat_map(|(foot, reliefs)| {
+        reliefs.into_iter().enumerate().filter_map(move |(place, relief)| {
+            relief.map(|relief| Reason { foot, limit: limit(place), relief })
+        })
+    })
+}
+
+/// The one with the greatest relief.
+#[inline(always)]
+pub(in crate::balance) fn greatest<T: Real>(
+    reasons: impl Iterator<Item = Reason<T>>,
+) -> Option<Reason<T>> {
+    reasons.fold(None, |most: Option<Reason<T>>, one| match most {
+        Some(most) if most.relief >= one.relief => Some(most),
+        _ => Some(one),
+    })
 }
 
 /// Limits of a foot whose leg has at most seven joints.

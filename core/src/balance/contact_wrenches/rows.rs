@@ -54,7 +54,7 @@ pub enum ContactLimit {
 
 impl ContactLimit {
     /// Of a row of a foot whose leg has this many joints.
-    pub(super) fn of_row(row: u8, joints: u8) -> Self {
+    pub(in crate::balance) fn of_row(row: u8, joints: u8) -> Self {
         match row % STRIDE {
             0 => Self::Lift,
             1 => Self::Press,
@@ -69,6 +69,18 @@ impl ContactLimit {
     }
 }
 
+/// Number of the first row of foot `foot`.
+#[inline(always)]
+pub(in crate::balance) fn first_row(foot: usize) -> u8 {
+    (foot as u8).wrapping_mul(STRIDE)
+}
+
+/// Foot and row of it.
+#[inline(always)]
+pub(in crate::balance) fn split_row(row: u8) -> (usize, u8) {
+    (usize::from(row / STRIDE), row % STRIDE)
+}
+
 /// `(s, t)` of a twist row, counted from 0.
 #[inline(always)]
 fn signs<T: Real>(row: u8) -> (T, T) {
@@ -80,7 +92,7 @@ impl<T: Real, const JOINTS: usize> ContactFoot<'_, T, JOINTS> {
     /// Normal of a row, on `w` in frame 1's axes, and its bound.
     #[inline(always)]
     pub(super) fn row(&self, row: u8) -> Option<(Wrench<T>, T)> {
-        let (zero, one) = (T::zero(), T::one());
+        let one = T::one();
         if let Some(joint) = row.checked_sub(CONTACT_ROWS) {
             let joint = usize::from(joint);
             let (joint, sign) =
@@ -89,21 +101,44 @@ impl<T: Real, const JOINTS: usize> ContactFoot<'_, T, JOINTS> {
             let normal = Wrench { force: twist.linear * sign, torque: twist.angular * sign };
             return Some((normal, -*limit));
         }
+        let (a, bound) = self.limits.contact_row(row)?;
+        let carried = &self.carried;
+        let bound = bound - a.force.dot(&carried.force) - a.torque.dot(&carried.torque);
+        Some((Wrench { force: self.rotation * a.force, torque: self.rotation * a.torque }, bound))
+    }
+
+    /// Tests all rows at `w` (frame 1's axes); the first has the number `first`.
+    #[inline(always)]
+    pub(super) fn scan(&self, w: &Wrench<T>, first: u8, search: &mut Search<'_, T>) {
         let limits = self.limits;
-        let patch = &limits.patch;
+        limits.scan_contact(&(self.in_sole_axes(w) + self.carried), first, search);
+        limits.scan_torques(|k| -self.joints[k].power(*w), first, search);
+    }
+}
+
+impl<T: Real, const JOINTS: usize> ContactLimits<T, JOINTS> {
+    /// Normal of a row of the contact, on the ground's wrench in sole axes about the reference point, and
+    /// its bound; `None` for the number of a torque's.
+    #[inline(always)]
+    pub(in crate::balance) fn contact_row(&self, row: u8) -> Option<(Wrench<T>, T)> {
+        if row >= CONTACT_ROWS {
+            return None;
+        }
+        let patch = &self.patch;
+        let (zero, one) = (T::zero(), T::one());
         let (hx, hy, c) = (patch.half_x, patch.half_y, patch.center);
-        let mu = limits.friction * T::of(FRAC_1_SQRT_2);
+        let mu = self.friction * T::of(FRAC_1_SQRT_2);
         let wrench =
             |force: [T; 3], torque: [T; 3]| Wrench { force: force.into(), torque: torque.into() };
         let force = |x, y, z| wrench([x, y, z], [zero; 3]);
         let mut bound = zero;
         let a = match row {
             0 => {
-                bound = limits.least_force;
+                bound = self.least_force;
                 force(zero, zero, one)
             }
             1 => {
-                bound = -limits.greatest_force;
+                bound = -self.greatest_force;
                 force(zero, zero, -one)
             }
             2 => force(-one, zero, mu),
@@ -127,41 +162,28 @@ impl<T: Real, const JOINTS: usize> ContactFoot<'_, T, JOINTS> {
                 )
             }
         };
-        let carried = &self.carried;
-        let bound = bound - a.force.dot(&carried.force) - a.torque.dot(&carried.torque);
-        Some((Wrench { force: self.rotation * a.force, torque: self.rotation * a.torque }, bound))
-    }
-
-    /// Tests all rows at `w` (frame 1's axes); the first has the number `first`.
-    #[inline(always)]
-    pub(super) fn scan(&self, w: &Wrench<T>, first: u8, search: &mut Search<'_, T>) {
-        let limits = self.limits;
-        limits.scan_contact(&(self.in_sole_axes(w) + self.carried), first, search);
-        limits.scan_torques(|k| -self.joints[k].power(*w), first, search);
+        Some((a, bound))
     }
 
     /// The term of a row's limit, in the row's unit, that is scaled where the limit is widened, with
     /// the ground's force `fz` normal to the sole.
     #[inline(always)]
     pub(super) fn limit_term(&self, limit: ContactLimit, row: u8, fz: T) -> T {
-        let limits = self.limits;
-        let patch = &limits.patch;
-        let cap = limits.friction * T::of(FRAC_1_SQRT_2) * fz;
+        let patch = &self.patch;
+        let cap = self.friction * T::of(FRAC_1_SQRT_2) * fz;
         match limit {
-            ContactLimit::Lift => limits.least_force,
-            ContactLimit::Press => limits.greatest_force,
+            ContactLimit::Lift => self.least_force,
+            ContactLimit::Press => self.greatest_force,
             ContactLimit::Slip => cap,
             ContactLimit::Tip if row % STRIDE < 8 => patch.half_x * fz,
             ContactLimit::Tip => patch.half_y * fz,
             ContactLimit::Twist => cap * (patch.half_x + patch.half_y),
             ContactLimit::Torque(joint) => {
-                limits.torques.get(usize::from(joint)).map_or(T::zero(), |limit| *limit)
+                self.torques.get(usize::from(joint)).map_or(T::zero(), |limit| *limit)
             }
         }
     }
-}
 
-impl<T: Real, const JOINTS: usize> ContactLimits<T, JOINTS> {
     /// Tests the rows of the contact at the wrench `ground` of the ground, in sole axes about the
     /// reference point; the foot's first row has the number `first`.
     #[inline(always)]

@@ -1,14 +1,14 @@
-//! A foot that presses: where it is, and what its leg's joints do to hold it.
+//! A foot with a contact's directions: where it is, and what its leg's joints do to hold or to move it.
 //!
 //! # Notation
 //! Frame 1 (see the module above). `p` reference point, `R` frame 1 from sole axes, `s_k` the twist at
 //! frame 1's origin per rate of joint k; `P` picks the directions that the contact has.
 //! ```text
 //! J_k = P Rᵀ (s_k seen from p),    J_b X = P Rᵀ (X seen from p)
-//! J θ̈ + J_b X + b = a,   a = −k v    ⇒    θ̈ = θ̈₀ + J⁺ (a − b) − J⁺ J_b X          (1)
+//! J θ̈ + J_b X + b = a             ⇒    θ̈ = θ̈₀ + J⁺ (a − b) − J⁺ J_b X          (1)
 //! ```
 //! with `b` the point's acceleration for joints at their posture's accelerations `θ̈₀` and a central body
-//! whose twist does not change; `v` the foot's velocity.
+//! whose twist does not change; `a = −k v` of a pressing foot, from its velocity v.
 
 use super::leg_inverse::{ByJoint, DIRECTIONS, leg_inverse};
 use super::robot::{Leg, MOST_LEG_JOINTS};
@@ -17,7 +17,7 @@ use crate::dynamics::BodyKinematics;
 use crate::spatial::{Twist, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
-/// A pressing foot and its leg.
+/// A foot and its leg.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact<T> {
     /// `R`
@@ -35,9 +35,24 @@ pub(super) struct Contact<T> {
     columns: ByJoint<T>,
     /// `a − b`
     asked: [T; DIRECTIONS],
-    directions: [bool; DIRECTIONS],
+    /// Those that the contact has.
+    pub directions: [bool; DIRECTIONS],
     /// `ε²`; zero where the leg is not near a singular posture.
     pub damping: T,
+}
+
+/// `a` of (1).
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Asked<T> {
+    /// The foot comes to rest at this rate, 1/s.
+    Rest(T),
+    /// It moves: acceleration of its reference point (m/s²) and its angular one (rad/s²), world axes.
+    Move {
+        /// Of the point.
+        linear: Vector3<T>,
+        /// Of the foot.
+        angular: Vector3<T>,
+    },
 }
 
 /// What [`Contact::new`] reads.
@@ -53,7 +68,7 @@ pub(super) struct Place<'a, T> {
 impl<T: Real> Contact<T> {
     /// `None` for numbers that are not finite.
     #[inline(always)]
-    pub fn new(leg: &Leg<T>, place: &Place<'_, T>, rest_rate: T, damping: T) -> Option<Self> {
+    pub fn new(leg: &Leg<T>, place: &Place<'_, T>, asked: &Asked<T>, damping: T) -> Option<Self> {
         let Place { central, body, screws } = place;
         let from_body = central.tr_mul(&body.pose.rotation);
         let moments = leg.foot.limits.patch.moments();
@@ -81,10 +96,16 @@ impl<T: Real> Contact<T> {
             pick(&directions, [l.x, l.y, l.z, w.x, w.y, w.z])
         };
         let bias = picked(from_body * acceleration, from_body * a.angular);
-        let creep = picked(from_body * velocity, from_body * w);
-        let mut asked = [T::zero(); DIRECTIONS];
-        for (asked, (bias, creep)) in asked.iter_mut().zip(bias.iter().zip(&creep)) {
-            *asked = -*creep * rest_rate - *bias;
+        let mut asked = match asked {
+            Asked::Rest(rate) => {
+                picked(from_body * velocity, from_body * w).map(|creep| -creep * *rate)
+            }
+            Asked::Move { linear, angular } => {
+                picked(central.tr_mul(linear), central.tr_mul(angular))
+            }
+        };
+        for (asked, bias) in asked.iter_mut().zip(&bias) {
+            *asked -= *bias;
         }
         let mut columns = [[T::zero(); DIRECTIONS]; MOST_LEG_JOINTS];
         let mut scaled = columns;
@@ -123,32 +144,60 @@ impl<T: Real> Contact<T> {
     /// `J⁺ (a − b)` of (1) by joint.
     #[inline(always)]
     pub fn correction(&self) -> [T; MOST_LEG_JOINTS] {
-        self.inverse
-            .map(|row| row.iter().zip(&self.asked).fold(T::zero(), |sum, (x, a)| sum + *x * *a))
+        self.moving(&self.asked)
+    }
+
+    /// `J⁺ a` by joint, of an acceleration in sole axes.
+    #[inline(always)]
+    pub fn moving(&self, a: &[T; DIRECTIONS]) -> [T; MOST_LEG_JOINTS] {
+        self.inverse.map(|row| row.iter().zip(a).fold(T::zero(), |sum, (x, a)| sum + *x * *a))
+    }
+
+    /// `J⁺ᵀ t`, in sole axes.
+    #[inline(always)]
+    pub fn gathered(&self, t: &[T; MOST_LEG_JOINTS]) -> [T; DIRECTIONS] {
+        let mut sum = [T::zero(); DIRECTIONS];
+        for (row, t) in self.inverse.iter().zip(t) {
+            for (sum, x) in sum.iter_mut().zip(row) {
+                *sum += *x * *t;
+            }
+        }
+        sum
     }
 
     /// The wrench (sole axes, about p) of the ground that would hold the leg against the torques `t` of
     /// its joints: `J⁺ᵀ t`, in frame 1's axes.
     #[inline(always)]
     pub fn holding(&self, torques: &[T; MOST_LEG_JOINTS]) -> Wrench<T> {
-        let mut sum = [T::zero(); DIRECTIONS];
-        for (row, torque) in self.inverse.iter().zip(torques) {
-            for (sum, x) in sum.iter_mut().zip(row) {
-                *sum += *x * *torque;
-            }
-        }
-        let w = Wrench::from_array(sum);
+        self.in_frame(&self.gathered(torques))
+    }
+
+    /// A wrench in sole axes, in frame 1's.
+    #[inline(always)]
+    pub fn in_frame(&self, w: &[T; DIRECTIONS]) -> Wrench<T> {
+        let w = Wrench::from_array(*w);
         Wrench { force: self.rotation * w.force, torque: self.rotation * w.torque }
+    }
+
+    /// The same about frame 1's origin.
+    #[inline(always)]
+    pub fn on_base(&self, w: &[T; DIRECTIONS]) -> Wrench<T> {
+        self.in_frame(w).shifted(self.position)
+    }
+
+    /// A twist at frame 1's origin, seen from p, in sole axes.
+    #[inline(always)]
+    pub fn seen(&self, twist: &Twist<T>) -> [T; DIRECTIONS] {
+        let linear = self.rotation.tr_mul(&(twist.linear + twist.angular.cross(&self.position)));
+        let angular = self.rotation.tr_mul(&twist.angular);
+        [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z]
     }
 
     /// What the foot does of itself where its leg cannot hold it: the acceleration in the contact's
     /// directions, less the one asked for, at `x` and `joints` on top of the posture's accelerations.
     /// Sole axes, m/s² and rad/s².
     pub fn given_up(&self, x: Twist<T>, joints: &[T; MOST_LEG_JOINTS]) -> Twist<T> {
-        let linear = self.rotation.tr_mul(&(x.linear + x.angular.cross(&self.position)));
-        let angular = self.rotation.tr_mul(&x.angular);
-        let of_base = [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z];
-        let mut sum = pick(&self.directions, of_base);
+        let mut sum = pick(&self.directions, self.seen(&x));
         for (sum, asked) in sum.iter_mut().zip(&self.asked) {
             *sum -= *asked;
         }

@@ -84,6 +84,25 @@ pub(super) fn checked<T: Real, const N: usize, const NQ: usize, const NV: usize>
     state: &WholeBodyState<T, NQ, NV>,
     reference: &Reference<T>,
 ) -> Result<CentralBody<T>, Fault> {
+    check_finite(state)?;
+    check_reference(reference)?;
+    central_body(tree, state)
+}
+
+/// The same without a reference.
+#[inline(always)]
+pub(super) fn checked_state<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    state: &WholeBodyState<T, NQ, NV>,
+) -> Result<CentralBody<T>, Fault> {
+    check_finite(state)?;
+    central_body(tree, state)
+}
+
+#[inline(always)]
+fn check_finite<T: Real, const NQ: usize, const NV: usize>(
+    state: &WholeBodyState<T, NQ, NV>,
+) -> Result<(), Fault> {
     let WholeBodyState { positions, velocities } = state;
     for (k, x) in positions.iter().enumerate() {
         if !x.is_finite() {
@@ -100,7 +119,15 @@ pub(super) fn checked<T: Real, const N: usize, const NQ: usize, const NV: usize>
             return Err(Fault::NotFinite(input));
         }
     }
-    check_reference(reference)?;
+    Ok(())
+}
+
+#[inline(always)]
+fn central_body<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    state: &WholeBodyState<T, NQ, NV>,
+) -> Result<CentralBody<T>, Fault> {
+    let WholeBodyState { positions, velocities } = state;
     let mut q = [T::zero(); 4];
     for (to, x) in q.iter_mut().zip(positions.iter().skip(3)) {
         *to = *x;

@@ -27,13 +27,15 @@
 //! [`WholeBody`] finds the legs, and [`WholeBodySettings`] (with documented starting values by mass and
 //! height).
 //!
-//! A leg that swings would bring the acceleration of its foot as unknowns in the place of its wrench;
-//! here it tracks its posture.
+//! A leg that does not press tracks its posture in [`whole_body_tick`]; in [`whole_body_motion_tick`], for
+//! a planner's [`MotionTask`], its foot follows an acceleration.
 
 mod contact;
 mod fault;
 mod leg_inverse;
 mod measured;
+mod motion;
+mod observed;
 mod program;
 mod reduced;
 mod report;
@@ -43,6 +45,8 @@ mod task;
 mod tick;
 
 pub use fault::WholeBodyRobotFault;
+pub use motion::{MotionWeights, whole_body_motion_tick};
+pub use observed::{ObservedBody, observe};
 pub use program::WholeBodyLimit;
 pub use report::{WholeBodyCommand, WholeBodyMemory, WholeBodyReport, WholeBodyState};
 pub use robot::{MOST_JOINTS, MOST_LEG_JOINTS, WholeBody, WholeBodyFoot};

@@ -14,7 +14,8 @@
 use super::reduced::Reduced;
 use super::robot::{BodyJoint, WholeBody};
 use crate::Real;
-use crate::balance::{ContactLimit, ContactProgram};
+use crate::balance::contact_wrenches::split_row;
+use crate::balance::{ContactLimit, ContactProgram, Reason};
 use crate::qp::{ActiveRows, Program, ProgramCost, Search, Work};
 use crate::spatial::{Twist, Wrench};
 use nalgebra::Vector3;
@@ -80,17 +81,6 @@ impl<T: Real, const FEET: usize, const NV: usize> WholeBodyProgram<'_, T, FEET, 
         self.reduced.acceleration(on_base.iter().fold(Wrench::zero(), |sum, w| sum + *w))
     }
 
-    /// Which limit a row is.
-    pub fn limit_of(&self, row: u8) -> WholeBodyLimit {
-        match row.checked_sub(TORQUES) {
-            Some(pair) => WholeBodyLimit::Torque { velocity: BASE + usize::from(pair / 2) },
-            None => {
-                let (foot, limit) = self.contacts.limit_of(row);
-                WholeBodyLimit::Foot { foot, limit }
-            }
-        }
-    }
-
     /// The limit that costs most, with its relief: by how much the objective falls per 100 % by which it
     /// is widened.
     pub fn worst<const K: usize>(
@@ -98,30 +88,60 @@ impl<T: Real, const FEET: usize, const NV: usize> WholeBodyProgram<'_, T, FEET, 
         x: &[Wrench<T>; FEET],
         active: &ActiveRows<T, K>,
     ) -> Option<(WholeBodyLimit, T)> {
-        // Rows of torques are of no foot, and passed over.
-        let of_feet = self.contacts.reason(x, active).map(|reason| {
-            let limit = WholeBodyLimit::Foot { foot: reason.foot, limit: reason.limit };
-            (limit, reason.relief)
-        });
-        active.iter().fold(of_feet, |most, (row, multiplier)| {
-            let WholeBodyLimit::Torque { velocity } = self.limit_of(row) else { return most };
-            let limit = self.torques.get(velocity).copied().unwrap_or(T::zero());
-            let relief = multiplier * limit;
-            match most {
-                Some((_, greatest)) if greatest >= relief => most,
-                _ => Some((WholeBodyLimit::Torque { velocity }, relief)),
-            }
-        })
+        worst(self.contacts.reason(x, active), self.torques, active)
     }
+}
 
-    /// Joints by velocity, with their limit and the number of the first of their two rows.
-    #[inline(always)]
-    fn joints(&self) -> impl Iterator<Item = (usize, &BodyJoint, T, u8)> {
-        let all = self.robot.joints.iter().zip(self.torques).enumerate().skip(BASE);
-        all.zip((TORQUES..=u8::MAX).step_by(2)).filter_map(|((velocity, (joint, limit)), row)| {
-            Some((velocity, joint.as_ref()?, *limit, row))
-        })
+/// Which limit a row is.
+pub(super) fn limit_of(row: u8) -> WholeBodyLimit {
+    match row.checked_sub(TORQUES) {
+        Some(pair) => WholeBodyLimit::Torque { velocity: BASE + usize::from(pair / 2) },
+        None => {
+            let (foot, own) = split_row(row);
+            WholeBodyLimit::Foot { foot, limit: ContactLimit::of_row(own, 0) }
+        }
     }
+}
+
+/// The limit that costs most, with its relief: of the feet's and those of torques.
+pub(super) fn worst<T: Real, const NV: usize, const K: usize>(
+    of_feet: Option<Reason<T>>,
+    torques: &[T; NV],
+    active: &ActiveRows<T, K>,
+) -> Option<(WholeBodyLimit, T)> {
+    let of_feet = of_feet.map(|reason| {
+        let limit = WholeBodyLimit::Foot { foot: reason.foot, limit: reason.limit };
+        (limit, reason.relief)
+    });
+    active.iter().fold(of_feet, |most, (row, multiplier)| {
+        let WholeBodyLimit::Torque { velocity } = limit_of(row) else { return most };
+        let limit = torques.get(velocity).copied().unwrap_or(T::zero());
+        let relief = multiplier * limit;
+        match most {
+            Some((_, greatest)) if greatest >= relief => most,
+            _ => Some((WholeBodyLimit::Torque { velocity }, relief)),
+        }
+    })
+}
+
+/// Joint (by velocity) and sign of a torque's row: `limit − τ ≥ 0`, or `limit + τ ≥ 0`.
+#[inline(always)]
+pub(super) fn torque_row<T: Real>(row: u8) -> Option<(usize, T)> {
+    let pair = row.checked_sub(TORQUES)?;
+    let sign = if pair % 2 == 0 { -T::one() } else { T::one() };
+    Some((BASE + usize::from(pair / 2), sign))
+}
+
+/// Joints by velocity, with their limit and the number of the first of their two rows.
+#[inline(always)]
+pub(super) fn joints<'a, T: Real, const FEET: usize, const NV: usize>(
+    robot: &'a WholeBody<T, FEET, NV>,
+    torques: &'a [T; NV],
+) -> impl Iterator<Item = (usize, &'a BodyJoint, T, u8)> {
+    let all = robot.joints.iter().zip(torques).enumerate().skip(BASE);
+    all.zip((TORQUES..=u8::MAX).step_by(2)).filter_map(|((velocity, (joint, limit)), row)| {
+        Some((velocity, joint.as_ref()?, *limit, row))
+    })
 }
 
 impl<'a, T: Real, const FEET: usize, const NV: usize> Program<T>
@@ -175,17 +195,14 @@ impl<'a, T: Real, const FEET: usize, const NV: usize> Program<T>
 
     #[inline(always)]
     fn row(&self, row: u8) -> Option<(Self::Normal, T)> {
-        let Some(pair) = row.checked_sub(TORQUES) else {
+        let Some((velocity, sign)) = torque_row(row) else {
             let (normal, bound) = self.contacts.row(row)?;
             return Some((Normal::OnFoot(normal), bound));
         };
-        let velocity = BASE + usize::from(pair / 2);
         let joint = self.robot.joints.get(velocity)?.as_ref()?;
         let limit = *self.torques.get(velocity)?;
         let nothing = [Wrench::zero(); FEET];
         let free = self.reduced.torque(velocity, self.acceleration(&nothing), &nothing);
-        // limit − τ ≥ 0, or limit + τ ≥ 0.
-        let sign = if pair % 2 == 0 { -T::one() } else { T::one() };
         let [outboard, other] = self.reduced.torque_per_wrench(velocity)?;
         let mut normal = [Twist::zero(); FEET];
         for (foot, (normal, p)) in normal.iter_mut().zip(self.positions).enumerate() {
@@ -223,7 +240,7 @@ impl<'a, T: Real, const FEET: usize, const NV: usize> Program<T>
         self.contacts.scan(x, search);
         let on_base = self.on_base(x);
         let acceleration = self.acceleration(&on_base);
-        for (velocity, _, limit, row) in self.joints() {
+        for (velocity, _, limit, row) in joints(self.robot, self.torques) {
             let torque = self.reduced.torque(velocity, acceleration, &on_base);
             search.offer_pair(limit, torque, [row, row.wrapping_add(1)]);
         }

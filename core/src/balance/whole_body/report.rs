@@ -1,9 +1,10 @@
 //! What comes out of a tick.
 
 use super::WholeBodyLimit;
+use super::program::limit_of;
 use crate::Real;
 use crate::balance::{BindingRows, LimitSet, RobotState};
-use crate::qp::{Status, Work};
+use crate::qp::{ActiveRows, Solution, Status, Work};
 use crate::spatial::{Quaternion, Twist, Wrench};
 use nalgebra::Vector3;
 
@@ -107,7 +108,25 @@ impl<T: Real, const FEET: usize> WholeBodyReport<T, FEET> {
         self.worst.is_some() || self.status != Status::Solved
     }
 
-    pub(super) fn insert(&mut self, limit: WholeBodyLimit) {
+    /// What a solution tells: the limits of the rows that it ends with, and of these the `worst`.
+    #[inline(always)]
+    pub(super) fn fill<X, const K: usize>(
+        &mut self,
+        solution: &Solution<T, X>,
+        active: &ActiveRows<T, K>,
+        worst: Option<(WholeBodyLimit, T)>,
+    ) {
+        self.status = solution.status;
+        self.worst = worst;
+        self.changes = solution.changes;
+        self.work = solution.work;
+        for (row, _) in active.iter() {
+            self.insert(limit_of(row));
+        }
+        self.broken = solution.violation.map(|broken| (limit_of(broken.row), broken.amount));
+    }
+
+    fn insert(&mut self, limit: WholeBodyLimit) {
         match limit {
             WholeBodyLimit::Foot { foot, limit } => {
                 if let Some(set) = self.feet.get_mut(foot) {

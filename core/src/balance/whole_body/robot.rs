@@ -49,6 +49,8 @@ pub(super) struct BodyJoint {
     pub node: usize,
     /// Bit i: foot i is outboard of it.
     pub feet: u8,
+    /// Bit i: some joint of foot i's leg moves what it moves, so that their masses are coupled.
+    pub coupled: u8,
 }
 
 /// A floating central body (body 0) with legs and other limbs on revolute and prismatic joints; from a
@@ -99,6 +101,7 @@ impl<T: Real, const FEET: usize, const NV: usize> WholeBody<T, FEET, NV> {
         for number in 0..FEET {
             let Some(Some(foot)) = feet.get(number) else { continue };
             let leg = robot.find_leg(tree, number, foot)?;
+            robot.couple(tree, number, &leg);
             if let Some(place) = robot.legs.get_mut(number) {
                 *place = Some(leg);
             }
@@ -138,6 +141,25 @@ impl<T: Real, const FEET: usize, const NV: usize> WholeBody<T, FEET, NV> {
             }
         }
         Ok(())
+    }
+
+    /// Says of the joints inboard or outboard of a leg's that they are coupled to it.
+    fn couple<const N: usize, const NQ: usize>(
+        &mut self,
+        tree: &Tree<T, N, NQ, NV>,
+        number: usize,
+        leg: &Leg<T>,
+    ) {
+        let own = 1_u8.checked_shl(number as u32).unwrap_or(0);
+        // What is outboard of some joint of a chain is outboard of that nearest to the hip.
+        let hip = leg.count.checked_sub(1).and_then(|last| leg.joints.get(last)).copied();
+        let hip = hip.and_then(|hip| self.joints.get(hip)?.as_ref()).map(|joint| joint.node);
+        for joint in self.joints.iter_mut().flatten() {
+            let is_outboard = hip.is_some_and(|hip| is_inboard(tree, hip, joint.node));
+            if joint.feet & own != 0 || is_outboard {
+                joint.coupled |= own;
+            }
+        }
     }
 
     fn find_leg<const N: usize, const NQ: usize>(
@@ -216,8 +238,12 @@ fn joints<T: Real, const N: usize, const NQ: usize, const NV: usize>(
             JointKind::Fixed => {}
             JointKind::Revolute(_) | JointKind::Prismatic(_) => {
                 if let Some(place) = joints.get_mut(node.velocity_start) {
-                    *place =
-                        Some(BodyJoint { coordinate: node.position_start, node: body, feet: 0 });
+                    *place = Some(BodyJoint {
+                        coordinate: node.position_start,
+                        node: body,
+                        feet: 0,
+                        coupled: 0,
+                    });
                 }
             }
             _ => return Err(WholeBodyRobotFault::Joint { body }),

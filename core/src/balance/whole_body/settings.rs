@@ -1,6 +1,6 @@
 //! Gains, postures and limits.
 
-use super::WholeBodyRobotFault;
+use super::{MotionWeights, WholeBodyRobotFault};
 use crate::Real;
 use crate::balance::{ContactWeights, Gains};
 use crate::qp::{Settings, Work};
@@ -23,6 +23,8 @@ pub struct WholeBodySettings<T, const NV: usize> {
     pub rest_rate: T,
     /// What is given up first where not all can be had.
     pub weights: ContactWeights<T>,
+    /// The same of a tick whose feet may swing.
+    pub motion: MotionWeights<T>,
     /// How limits give way, and what a tick may spend.
     pub limits: Settings<T>,
     /// `ε₀`: damping of a leg in a singular posture, in units of its reach.
@@ -65,6 +67,7 @@ impl<T: Real, const NV: usize> WholeBodySettings<T, NV> {
                 norm_length: height,
                 ..standing
             },
+            motion: MotionWeights::scaled(height, gravity),
             limits: Settings { work: Self::most_work(feet), ..Settings::new(T::of(1e-3)) },
             damping: T::of(0.01),
         }
@@ -83,8 +86,14 @@ impl<T: Real, const NV: usize> WholeBodySettings<T, NV> {
         }
         let weights = &self.weights;
         let gains = [self.rest_rate, self.damping, weights.regularization, weights.norm_length];
-        let mut all = self.posture_gains.iter().chain(&gains).chain(&weights.task);
-        let is_good = all.all(|x| *x >= T::zero() && x.is_finite());
+        let motion = &self.motion;
+        // Those that are divided by.
+        let positive = [motion.swing_linear, motion.swing_angular, motion.regularization];
+        let is_positive = positive.iter().all(|x| *x > T::zero());
+        let motion = [motion.linear, motion.angular, motion.norm_length];
+        let all = self.posture_gains.iter().chain(&gains).chain(&weights.task);
+        let mut all = all.chain(&motion).chain(&positive);
+        let is_good = is_positive && all.all(|x| *x >= T::zero() && x.is_finite());
         if is_good { Ok(()) } else { Err(WholeBodyRobotFault::Gain) }
     }
 }

@@ -1,6 +1,6 @@
 //! One tick.
 
-use super::contact::{Contact, Place};
+use super::contact::{Asked, Contact, Place};
 use super::measured::{checked, first3, posture, screws};
 use super::program::WholeBodyProgram;
 use super::reduced::Reduced;
@@ -76,7 +76,7 @@ pub fn whole_body_tick<
         let body = kinematics.get(leg.foot.body).ok_or(Fault::NotHeld)?;
         let of_leg = leg.joints.map(|joint| screws.get(joint).copied().unwrap_or(Twist::zero()));
         let from = Place { central: &central.rotation, body, screws: of_leg };
-        let contact = Contact::new(leg, &from, settings.rest_rate, settings.damping);
+        let contact = Contact::new(leg, &from, &Asked::Rest(settings.rest_rate), settings.damping);
         let contact = contact.ok_or(Fault::Overflow)?;
         for (joint, more) in contact.joints.iter().zip(contact.correction()).take(contact.count) {
             if let Some(to) = accelerations.get_mut(*joint) {
@@ -191,15 +191,7 @@ fn within<T: Real, const FEET: usize, const NV: usize>(
     let active = &mut memory.active;
     let solution = solve(program, active, settings).map_err(|_| Fault::Overflow)?;
     command.foot_wrenches = solution.x;
-    let report = &mut command.limits;
-    report.status = solution.status;
-    report.worst = program.worst(&solution.x, active);
-    report.changes = solution.changes;
-    report.work = solution.work;
-    for (row, _) in active.iter() {
-        report.insert(program.limit_of(row));
-    }
-    report.broken = solution.violation.map(|broken| (program.limit_of(broken.row), broken.amount));
+    command.limits.fill(&solution, active, program.worst(&solution.x, active));
     Ok(())
 }
 

@@ -1,0 +1,221 @@
+//! (1), (2) and (3) of the module above.
+
+use super::super::contact::Contact;
+use super::super::leg_inverse::DIRECTIONS;
+use super::super::robot::{MOST_LEG_JOINTS, WholeBody};
+use crate::Real;
+use crate::balance::ContactLimits;
+use crate::balance::square::Square;
+use crate::spatial::{Twist, Wrench};
+
+/// One number for each direction of a foot, sole axes: a wrench, or an acceleration.
+pub(super) type Unknowns<T> = [T; DIRECTIONS];
+
+/// A foot in this tick.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MotionFoot<T> {
+    pub contact: Contact<T>,
+    /// What the ground can give it; `None` where it swings.
+    pub limits: Option<ContactLimits<T, 0>>,
+}
+
+/// What follows from the unknowns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moved<T, const FEET: usize> {
+    /// `X`
+    pub base: Twist<T>,
+    /// `δ_i`, by the leg's joints.
+    pub legs: [[T; MOST_LEG_JOINTS]; FEET],
+    /// `G_i w_i`; zero for those that swing.
+    pub on_base: [Wrench<T>; FEET],
+}
+
+/// `P`, and what (1) to (3) read.
+pub(super) struct MotionDynamics<'a, T, const FEET: usize, const NV: usize> {
+    pub robot: &'a WholeBody<T, FEET, NV>,
+    pub feet: &'a [Option<MotionFoot<T>>; FEET],
+    masses: &'a [[T; NV]; NV],
+    screws: &'a [Twist<T>; NV],
+    bias: [T; NV],
+    base: Square<T>,
+}
+
+/// The central body's entries of a joint's row.
+#[inline(always)]
+fn base_entries<T: Real, const NV: usize>(row: &[T; NV]) -> [T; 6] {
+    row.first_chunk().copied().unwrap_or([T::zero(); 6])
+}
+
+#[inline(always)]
+fn has(feet: u8, foot: usize) -> bool {
+    feet & (1 << (foot & 7)) != 0
+}
+
+impl<'a, T: Real, const FEET: usize, const NV: usize> MotionDynamics<'a, T, FEET, NV> {
+    /// `bias` is `h`. `None` where no acceleration of the central body follows from the unknowns.
+    #[inline(always)]
+    pub fn new(
+        robot: &'a WholeBody<T, FEET, NV>,
+        feet: &'a [Option<MotionFoot<T>>; FEET],
+        masses: &'a [[T; NV]; NV],
+        screws: &'a [Twist<T>; NV],
+        bias: [T; NV],
+    ) -> Option<Self> {
+        let mut base = [[T::zero(); 6]; 6];
+        for (to, row) in base.iter_mut().zip(masses) {
+            *to = base_entries(row);
+        }
+        for foot in feet.iter().flatten() {
+            let Contact { joints, per_base, count, .. } = &foot.contact;
+            for (joint, per_base) in joints.iter().zip(per_base).take(*count) {
+                let masses = masses.get(*joint).map_or([T::zero(); 6], base_entries);
+                let per_base = per_base.to_array();
+                for (row, mass) in base.iter_mut().zip(masses) {
+                    for (to, x) in row.iter_mut().zip(per_base) {
+                        *to += mass * x;
+                    }
+                }
+            }
+        }
+        let most = base.iter().flatten().fold(T::zero(), |most, x| most.max(x.abs()));
+        let base = Square::new(base, most * T::default_epsilon() * T::of(4.0))?;
+        Some(Self { robot, feet, masses, screws, bias, base })
+    }
+
+    /// (2) and (1).
+    #[inline(always)]
+    pub fn moved(&self, x: &[Unknowns<T>; FEET]) -> Moved<T, FEET> {
+        let mut right = [T::zero(); 6];
+        for (to, bias) in right.iter_mut().zip(&self.bias) {
+            *to = -*bias;
+        }
+        let mut legs = [[T::zero(); MOST_LEG_JOINTS]; FEET];
+        let mut on_base = [Wrench::zero(); FEET];
+        for (((foot, x), leg), on_base) in self.feet.iter().zip(x).zip(&mut legs).zip(&mut on_base)
+        {
+            let Some(foot) = foot else { continue };
+            let contact = &foot.contact;
+            if foot.limits.is_some() {
+                *on_base = contact.on_base(x);
+                for (to, w) in right.iter_mut().zip(on_base.to_array()) {
+                    *to += w;
+                }
+            } else {
+                *leg = contact.moving(x);
+                for (joint, moved) in contact.joints.iter().zip(leg).take(contact.count) {
+                    let masses = self.masses.get(*joint).map_or([T::zero(); 6], base_entries);
+                    for (to, mass) in right.iter_mut().zip(masses) {
+                        *to -= mass * *moved;
+                    }
+                }
+            }
+        }
+        let base = Twist::from_array(self.base.solve(&right));
+        for (foot, leg) in self.feet.iter().zip(&mut legs) {
+            let Some(foot) = foot else { continue };
+            for (to, row) in leg.iter_mut().zip(&foot.contact.per_base).take(foot.contact.count) {
+                *to += base.power(*row);
+            }
+        }
+        Moved { base, legs, on_base }
+    }
+
+    /// (3)
+    #[inline(always)]
+    pub fn torque(&self, velocity: usize, moved: &Moved<T, FEET>) -> T {
+        let (Some(row), Some(bias), Some(Some(joint))) =
+            (self.masses.get(velocity), self.bias.get(velocity), self.robot.joints.get(velocity))
+        else {
+            return T::zero();
+        };
+        let mut torque = moved.base.power(Wrench::from_array(base_entries(row))) + *bias;
+        let mut outboard = Wrench::zero();
+        let feet = self.feet.iter().zip(&moved.legs).zip(&moved.on_base).enumerate();
+        for (number, ((foot, leg), on_base)) in feet {
+            let Some(foot) = foot else { continue };
+            if has(joint.coupled, number) {
+                torque += along_leg(row, &foot.contact, leg);
+            }
+            if has(joint.feet, number) {
+                outboard += *on_base;
+            }
+        }
+        match self.screws.get(velocity) {
+            Some(screw) if joint.feet != 0 => torque - screw.power(outboard),
+            _ => torque,
+        }
+    }
+
+    /// What `y · P X` is per unknown.
+    #[inline(always)]
+    pub fn per_unknown(&self, y: &Twist<T>) -> [Unknowns<T>; FEET] {
+        self.gradient(y, None)
+    }
+
+    /// What (3) is per unknown.
+    #[inline(always)]
+    pub fn torque_per_unknown(&self, velocity: usize) -> Option<[Unknowns<T>; FEET]> {
+        let row = self.masses.get(velocity)?;
+        let joint = self.robot.joints.get(velocity)?.as_ref()?;
+        let mut of_base = Wrench::from_array(base_entries(row));
+        for (number, foot) in self.feet.iter().enumerate() {
+            let Some(foot) = foot.as_ref().filter(|_| has(joint.coupled, number)) else { continue };
+            let Contact { joints, per_base, count, .. } = &foot.contact;
+            for (joint, per_base) in joints.iter().zip(per_base).take(*count) {
+                of_base += *per_base * row.get(*joint).copied().unwrap_or(T::zero());
+            }
+        }
+        let y = self.for_base(&of_base.to_array());
+        Some(self.gradient(&y, Some(velocity)))
+    }
+
+    /// `y` with `Pᵀ y = b`.
+    #[inline(always)]
+    pub fn for_base(&self, b: &[T; 6]) -> Twist<T> {
+        Twist::from_array(self.base.solve_transposed(b))
+    }
+
+    /// Of `y · P X`, and of what (3) has beside X for a joint.
+    #[inline(always)]
+    fn gradient(&self, y: &Twist<T>, direct: Option<usize>) -> [Unknowns<T>; FEET] {
+        let joint = direct.and_then(|velocity| self.robot.joints.get(velocity)?.as_ref());
+        let row = direct.and_then(|velocity| self.masses.get(velocity));
+        let screw = direct.and_then(|velocity| self.screws.get(velocity));
+        let mut all = [[T::zero(); DIRECTIONS]; FEET];
+        for (number, (to, foot)) in all.iter_mut().zip(self.feet).enumerate() {
+            let Some(foot) = foot else { continue };
+            let contact = &foot.contact;
+            if foot.limits.is_some() {
+                let is_outboard = joint.is_some_and(|joint| has(joint.feet, number));
+                let twist = match screw {
+                    Some(screw) if is_outboard => *y - *screw,
+                    _ => *y,
+                };
+                *to = contact.seen(&twist);
+            } else {
+                let own = row.filter(|_| joint.is_some_and(|joint| has(joint.coupled, number)));
+                let mut forces = [T::zero(); MOST_LEG_JOINTS];
+                for (to, joint) in forces.iter_mut().zip(contact.joints).take(contact.count) {
+                    let masses = self.masses.get(joint).map_or([T::zero(); 6], base_entries);
+                    let own = own.and_then(|row| row.get(joint)).copied().unwrap_or(T::zero());
+                    *to = own - y.power(Wrench::from_array(masses));
+                }
+                *to = contact.gathered(&forces);
+            }
+        }
+        all
+    }
+}
+
+/// `M_ki δ_i`
+#[inline(always)]
+fn along_leg<T: Real, const NV: usize>(
+    row: &[T; NV],
+    contact: &Contact<T>,
+    moved: &[T; MOST_LEG_JOINTS],
+) -> T {
+    let joints = contact.joints.iter().zip(moved).take(contact.count);
+    joints.fold(T::zero(), |sum, (joint, moved)| {
+        sum + row.get(*joint).copied().unwrap_or(T::zero()) * *moved
+    })
+}

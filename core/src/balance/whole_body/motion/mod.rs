@@ -1,0 +1,37 @@
+//! Feet that press and legs that swing, in one program.
+//!
+//! ```text
+//! state ─► observe ─┬► motion ─► planner ─► task ─┐
+//!                   └──────────────────────────────┴► tick ─► torques, accelerations, foot wrenches
+//! ```
+//! Each foot brings its contact's directions as unknowns: its wrench where it presses, and where it
+//! swings what its reference point's acceleration differs from the wanted one. So double support, single
+//! support and flight are one program of one size.
+//!
+//! # Notation
+//! Frame 1; all accelerations from those `θ̈₁` at which every foot accelerates as it is to (a pressing one
+//! comes to rest) and the posture's joints as theirs. `X` of the central body, `d_i` of foot i from what
+//! is wanted, `w_i` its wrench in sole axes; `J⁺`, `J_b` of the contacts; `M` mass matrix, `h` inverse
+//! dynamics at `θ̈₁`, index b for the central body's rows, i for those of leg i's joints.
+//! ```text
+//! δ_i = J_i⁺ (d_i − J_b,i X)                                                       (1)
+//! P X + z = Σ_press G_i w_i − Σ_swing M_bi J_i⁺ d_i,
+//!     P = M_bb − Σ M_bi J_i⁺ J_b,i,   z = h_b                                      (2)
+//! τ_k = M_kb X + Σ M_ki δ_i + h_k − Σ_{pressing feet outboard of k} s_k · G_i w_i   (3)
+//! ```
+//! What is minimised, with x the unknowns of all feet:
+//! ```text
+//! ½ m² (λ |c̈ − c̈*|² + α |ω̇ − ω̇*|² + Σ_swing (σ |d_lin|² + ρ |d_ang|²)) + ½ ε Σ_press (|f|² + |n|²/ℓ²)
+//! ```
+//! so that an error of the centre of mass counts as the force that it takes, as in
+//! [`ContactProgram`](crate::balance::ContactProgram), and limits give way alike. Where the centre of
+//! pressure is the task, `c̈ − c̈*` is horizontally `κ/(m g)` times the moment of the ground's forces about
+//! it ([`LinearTask`](super::LinearTask)), each taken at its foot's own height.
+
+mod dynamics;
+mod objective;
+mod program;
+mod tick;
+
+pub use objective::MotionWeights;
+pub use tick::whole_body_motion_tick;

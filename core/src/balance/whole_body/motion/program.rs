@@ -1,0 +1,160 @@
+//! The tick's program, as the solver takes it. Rows are numbered as those of
+//! [`WholeBodyProgram`](super::super::program::WholeBodyProgram); a foot that swings has none of its own.
+
+use super::super::WholeBodyLimit;
+use super::super::leg_inverse::DIRECTIONS;
+use super::super::program::{joints, torque_row, worst};
+use super::dynamics::{MotionDynamics, Unknowns};
+use super::objective::Objective;
+use crate::Real;
+use crate::balance::contact_wrenches::{first_row, greatest, reliefs, split_row};
+use crate::qp::{ActiveRows, Program, ProgramCost, Search, Work};
+use crate::spatial::Wrench;
+
+/// The program of one tick.
+pub(super) struct MotionProgram<'a, T, const FEET: usize, const NV: usize> {
+    pub dynamics: &'a MotionDynamics<'a, T, FEET, NV>,
+    pub objective: &'a Objective<T, FEET>,
+    /// Greatest torques.
+    pub torques: &'a [T; NV],
+}
+
+/// A row's normal, in sole axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Normal<T, const FEET: usize> {
+    /// On one foot.
+    OnFoot(usize, Unknowns<T>),
+    /// On all of them.
+    OnAll([Unknowns<T>; FEET]),
+}
+
+#[inline(always)]
+fn dot<T: Real>(a: &Unknowns<T>, b: &Unknowns<T>) -> T {
+    a.iter().zip(b).fold(T::zero(), |sum, (a, b)| sum + *a * *b)
+}
+
+impl<T: Real, const FEET: usize, const NV: usize> MotionProgram<'_, T, FEET, NV> {
+    /// The limit that costs most, with its relief.
+    pub fn worst<const K: usize>(
+        &self,
+        x: &[Unknowns<T>; FEET],
+        active: &ActiveRows<T, K>,
+    ) -> Option<(WholeBodyLimit, T)> {
+        let mut pressing = [None; FEET];
+        for ((to, foot), [_, _, fz, ..]) in pressing.iter_mut().zip(self.dynamics.feet).zip(x) {
+            *to = foot.as_ref().and_then(|foot| Some((foot.limits.as_ref()?, *fz)));
+        }
+        worst(greatest(reliefs(&pressing, active)), self.torques, active)
+    }
+}
+
+impl<T: Real, const FEET: usize, const NV: usize> Program<T> for MotionProgram<'_, T, FEET, NV> {
+    type Point = [Unknowns<T>; FEET];
+    type Normal = Normal<T, FEET>;
+    type Factor = ();
+
+    const COST: ProgramCost = {
+        let (feet, joints) = (FEET as Work, NV.saturating_sub(6) as Work);
+        ProgramCost {
+            factor: 0,
+            response: 36 + 84 * feet,
+            row: 72 + 120 * feet,
+            product: 6 * feet,
+            scan: 36 + 180 * feet + 18 * joints,
+        }
+    };
+
+    #[inline(always)]
+    fn minimum(&self) -> Self::Point {
+        self.objective.minimum
+    }
+
+    #[inline(always)]
+    fn zero(&self) -> Self::Point {
+        [[T::zero(); DIRECTIONS]; FEET]
+    }
+
+    #[inline(always)]
+    fn moved(&self, x: &Self::Point, by: &Self::Point) -> Self::Point {
+        let mut sum = *x;
+        for (x, by) in sum.as_flattened_mut().iter_mut().zip(by.as_flattened()) {
+            *x += *by;
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn is_finite(&self, x: &Self::Point) -> bool {
+        x.as_flattened().iter().all(|x| x.is_finite())
+    }
+
+    #[inline(always)]
+    fn factor(&self) -> Option<()> {
+        Some(())
+    }
+
+    #[inline(always)]
+    fn response(&self, (): &(), gradient: &Self::Point) -> Self::Point {
+        self.objective.response(gradient)
+    }
+
+    #[inline(always)]
+    fn row(&self, row: u8) -> Option<(Self::Normal, T)> {
+        if let Some((velocity, sign)) = torque_row::<T>(row) {
+            let limit = *self.torques.get(velocity)?;
+            let mut normal = self.dynamics.torque_per_unknown(velocity)?;
+            normal.as_flattened_mut().iter_mut().for_each(|x| *x *= sign);
+            let free = self.dynamics.torque(velocity, &self.dynamics.moved(&self.zero()));
+            return Some((Normal::OnAll(normal), -limit - free * sign));
+        }
+        let (foot, own) = split_row(row);
+        let limits = self.dynamics.feet.get(foot)?.as_ref()?.limits.as_ref()?;
+        let (normal, bound) = limits.contact_row(own)?;
+        Some((Normal::OnFoot(foot, normal.to_array()), bound))
+    }
+
+    #[inline(always)]
+    fn product(&self, normal: &Self::Normal, x: &Self::Point) -> T {
+        match normal {
+            Normal::OnFoot(foot, normal) => x.get(*foot).map_or(T::zero(), |x| dot(normal, x)),
+            Normal::OnAll(all) => {
+                all.iter().zip(x).fold(T::zero(), |sum, (normal, x)| sum + dot(normal, x))
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn accumulate(&self, gradient: &mut Self::Point, normal: &Self::Normal, multiplier: T) {
+        let add = |to: &mut Unknowns<T>, normal: &Unknowns<T>| {
+            for (to, x) in to.iter_mut().zip(normal) {
+                *to += *x * multiplier;
+            }
+        };
+        match normal {
+            Normal::OnFoot(foot, normal) => {
+                if let Some(to) = gradient.get_mut(*foot) {
+                    add(to, normal);
+                }
+            }
+            Normal::OnAll(all) => {
+                for (to, normal) in gradient.iter_mut().zip(all) {
+                    add(to, normal);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn scan(&self, x: &Self::Point, search: &mut Search<'_, T>) {
+        for (number, (foot, x)) in self.dynamics.feet.iter().zip(x).enumerate() {
+            if let Some(limits) = foot.as_ref().and_then(|foot| foot.limits.as_ref()) {
+                limits.scan_contact(&Wrench::from_array(*x), first_row(number), search);
+            }
+        }
+        let moved = self.dynamics.moved(x);
+        for (velocity, _, limit, row) in joints(self.dynamics.robot, self.torques) {
+            let torque = self.dynamics.torque(velocity, &moved);
+            search.offer_pair(limit, torque, [row, row.wrapping_add(1)]);
+        }
+    }
+}

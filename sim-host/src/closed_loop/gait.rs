@@ -1,0 +1,71 @@
+//! How a robot has walked.
+
+use super::Run;
+use crate::record::Sample;
+use crate::robot::Robot;
+use nalgebra::Vector2;
+use serde::Serialize;
+
+/// What a walking controller counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GaitTally {
+    /// Touch-downs of a foot, or a pair of feet.
+    pub steps: u32,
+    /// When the robot first had a command to walk, s.
+    pub begun_s: Option<f64>,
+}
+
+/// A walk in numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Gait {
+    /// Mean speed over the second half of the run, from where the central body was to where it is, m/s.
+    pub speed_m_s: f64,
+    /// Touch-downs of a foot, or a pair of feet.
+    pub steps: u32,
+    /// 1 for a run that fell or was stopped.
+    pub falls: u32,
+    /// Work of the motors, either sign counted as spent, over weight and distance, since the robot was first to
+    /// walk; none where it covered less than its own height.
+    pub cost_of_transport: Option<f64>,
+    /// From the first sample to the last, m.
+    pub distance_m: f64,
+    /// Largest tilt of the central body, degrees.
+    pub tilt_deg: f64,
+}
+
+impl Gait {
+    /// Of a run that has ended.
+    pub(super) fn of(tally: &GaitTally, run: &Run, robot: &Robot) -> Self {
+        let samples = &run.samples;
+        let at = |sample: &Sample| Vector2::new(sample.positions[0], sample.positions[1]);
+        let way = |samples: &[Sample]| match samples {
+            [first, .., last] => ((at(last) - at(first)).norm(), last.time_s - first.time_s),
+            _ => (0.0, 0.0),
+        };
+        let (late, time) = way(&samples[samples.len() / 2..]);
+        let begun = tally.begun_s.unwrap_or(f64::INFINITY);
+        let walked = samples.partition_point(|sample| sample.time_s < begun);
+        let walked = &samples[walked..];
+        let (distance, _) = way(walked);
+        let power = |sample: &Sample| -> f64 {
+            let rates = sample.velocities[6..].iter();
+            sample.torques.iter().zip(rates).map(|(torque, rate)| (torque * rate).abs()).sum()
+        };
+        let work: f64 =
+            walked.windows(2).map(|pair| power(&pair[0]) * (pair[1].time_s - pair[0].time_s)).sum();
+        let weight = robot.tree.mass() * robot.tree.gravity().norm();
+        let height = samples.first().map_or(f64::INFINITY, |sample| sample.positions[2]);
+        let tilt = |sample: &Sample| {
+            let [x, y] = [sample.positions[4], sample.positions[5]];
+            (1.0 - 2.0 * (x * x + y * y)).clamp(-1.0, 1.0).acos().to_degrees()
+        };
+        Self {
+            speed_m_s: if time > 0.0 { late / time } else { 0.0 },
+            steps: tally.steps,
+            falls: u32::from(run.failure.is_some()),
+            cost_of_transport: (distance > height).then(|| work / (weight * distance)),
+            distance_m: way(samples).0,
+            tilt_deg: samples.iter().map(tilt).fold(0.0, f64::max),
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! A robot that walks: core's planner over its whole-body controller, from commands of a scene.
+
+use super::controller::{Commanded, ControlFailure, Controller, measured};
+use super::gait::GaitTally;
+use super::limiting::LimitTally;
+use super::supervised::{recorded, remembered};
+use super::standing::FEET;
+use super::whole_body::{WholeBodyHost, padded};
+use crate::plant::PlantState;
+use crate::record;
+use crate::robot::{LEG, WalkerShape};
+use crate::scene::{Scene, WalkCommand};
+use nalgebra::{Vector2, Vector3};
+use surefoot::Real;
+use surefoot::balance::{
+    Command, Fault, Input, MotionWeights, ObservedMotion, Reference, RobotState, SafetyLimits,
+    StopReason, Supervisor, WholeBodyCommand, WholeBodyController, WholeBodySettings,
+    WholeBodyState, observe, whole_body_motion_tick,
+};
+use surefoot::model::Tree;
+use surefoot::spatial::{Quaternion, Wrench};
+use surefoot::walk::{self, PlaneMotion, Planner, StandingRobot, Stature, WalkFault, WalkMemory};
+
+/// Planner and controller in precision `T`, with a supervisor unless it is bare.
+pub(super) struct WalkingHost<
+    T,
+    const N: usize,
+    const NQ: usize,
+    const NV: usize,
+    const ROWS: usize,
+> {
+    walker: Walker<T, N, NQ, NV>,
+    supervisor: Option<Supervisor<T, ROWS>>,
+}
+
+struct Walker<T, const N: usize, const NQ: usize, const NV: usize> {
+    body: WholeBodyHost<T, N, NQ, NV>,
+    planner: Planner<T, FEET>,
+    memory: WalkMemory<T, FEET>,
+    commands: Vec<WalkCommand>,
+    forces: [T; FEET],
+    period: T,
+    /// Height of the central body at the start, for the supervisor.
+    height: T,
+}
+
+impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usize>
+    WalkingHost<T, N, NQ, NV, ROWS>
+{
+    /// Of a robot that stands as its scene starts.
+    ///
+    /// # Panics
+    /// For a scene that is not checked.
+    pub fn new(
+        tree: Tree<T, N, NQ, NV>,
+        limits: Option<SafetyLimits<T, ROWS>>,
+        scene: &Scene,
+    ) -> Self {
+        let period = T::of(1.0 / scene.controller.rate_hz);
+        let supervisor = limits.map(|limits| {
+            let mut supervisor = Supervisor::new(limits, period)
+                .expect("limits of the robot, period of a checked scene");
+            supervisor.arm();
+            supervisor
+        });
+        Self { walker: Walker::new(tree, scene, period), supervisor }
+    }
+}
+
+impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ, NV> {
+    fn new(tree: Tree<T, N, NQ, NV>, scene: &Scene, period: T) -> Self {
+        let mut body = WholeBodyHost::new(tree, scene);
+        let start = scene.start();
+        let shape = WalkerShape::of(&body.robot).expect("a robot of a checked scene");
+        let home = body.seen(&PlantState::home(body.robot.joint_count()));
+        let feet = body.robot.feet.len();
+        let legs = home.feet.iter().take(feet).map(|foot| foot.leg.norm());
+        let leg_length = legs.fold(T::zero(), |sum, leg| sum + leg) / T::of(feet as f64);
+        let robot = StandingRobot {
+            mass: T::of(shape.robot.mass),
+            gravity: T::of(shape.robot.gravity),
+            leg_length,
+            forward: T::of(shape.robot.forward),
+            sole: shape.robot.sole.map(T::of),
+            pressure_reach: shape.robot.pressure_reach.map(T::of),
+        };
+        let standing = body.seen(&start);
+        let stature = Stature::measured(&robot, &shape.sides, &standing).expect("a robot on feet");
+        // Starting values belong to the height of the centre of mass here.
+        let own = WholeBodySettings::<T, NV>::scaled(stature.height, robot.gravity, FEET);
+        body.settings.motion = MotionWeights::scaled(stature.height, robot.gravity);
+        body.settings.posture_gains = own.posture_gains;
+        body.settings.rest_rate = own.rest_rate;
+        let rotation = standing.central_rotation;
+        Self {
+            planner: Planner::new(stature),
+            memory: WalkMemory::standing(rotation.m21.atan2(rotation.m11)),
+            commands: scene.walk.clone(),
+            forces: [T::zero(); FEET],
+            period,
+            height: T::of(start.positions[2]),
+            body,
+        }
+    }
+
+    /// What the robot is to do now.
+    fn asked(&self) -> walk::WalkCommand<T> {
+        let now = self.commands.iter().rfind(|command| command.at_s <= self.body.time_s);
+        let walk = now.filter(|command| !command.stand).map(|command| PlaneMotion {
+            velocity: Vector2::new(T::of(command.forward_mps), T::of(command.left_mps)),
+            turning_rate: T::of(command.turn_deg_per_s.to_radians()),
+        });
+        walk::WalkCommand { walk, lowered: T::of(now.map_or(0.0, |c| c.lowered_m)) }
+    }
+
+    fn command(
+        &mut self,
+        state: &WholeBodyState<T, NQ, NV>,
+    ) -> Result<WholeBodyCommand<T, FEET, NV>, Fault> {
+        let asked = self.asked();
+        let Self { body, planner, memory, forces, period, .. } = self;
+        let WholeBodyHost { tree, model, settings, memory: rows, .. } = body;
+        let controller = WholeBodyController { tree, robot: model, settings };
+        let observed = observe(&controller, state)?;
+        let motion = observed.motion(&controller)?;
+        let planned = planner.plan(memory, &motion, forces, &asked, *period);
+        let task = planned.map_err(|fault| match fault {
+            WalkFault::Overflow => Fault::Overflow,
+            _ => Fault::NotFinite(Input::Reference),
+        })?;
+        let command = whole_body_motion_tick(&controller, &observed, &task.motion, rows)?;
+        body.count(&command.limits);
+        Ok(command)
+    }
+
+    /// Where the supervisor is to expect the robot: here, at its height.
+    fn reference(&self, state: &PlantState) -> Reference<T> {
+        let [x, y] = [state.positions[0], state.positions[1]].map(T::of);
+        Reference::at_rest(Vector3::new(x, y, self.height), Quaternion::identity())
+    }
+}
+
+impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T, N, NQ, NV> {
+    /// The model's motion at a state of the robot that is one.
+    fn seen(&self, state: &PlantState) -> ObservedMotion<T, FEET> {
+        let Self { tree, model, settings, .. } = self;
+        let controller = WholeBodyController { tree, robot: model, settings };
+        let state = WholeBodyState {
+            positions: padded(&state.positions),
+            velocities: padded(&state.velocities),
+        };
+        let seen = observe(&controller, &state).and_then(|seen| seen.motion(&controller));
+        seen.expect("a state of the robot")
+    }
+}
+
+impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usize> Controller
+    for WalkingHost<T, N, NQ, NV, ROWS>
+{
+    fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
+        let Self { walker, supervisor } = self;
+        let Some(supervisor) = supervisor else {
+            let state = WholeBodyState {
+                positions: padded(&state.positions),
+                velocities: padded(&state.velocities),
+            };
+            let command = walker.command(&state).map_err(ControlFailure::Fault)?;
+            return Ok(walker.body.commanded(&command.torques[6..], command.desired_wrench));
+        };
+        let mut in_rows = state.clone();
+        in_rows.positions.resize(7 + ROWS * LEG, 0.0);
+        in_rows.velocities.resize(6 + ROWS * LEG, 0.0);
+        let reference = walker.reference(state);
+        let tick = |now: &RobotState<T, ROWS>| {
+            let command = walker.command(&WholeBodyState::of_rows(now))?;
+            let mut joint_torques = [[T::zero(); LEG]; ROWS];
+            let all = joint_torques.as_flattened_mut().iter_mut();
+            all.zip(&command.torques[6..]).for_each(|(to, torque)| *to = *torque);
+            Ok(Command {
+                joint_torques,
+                desired_wrench: command.desired_wrench,
+                foot_wrenches: [Wrench::zero(); ROWS],
+                position_error: command.position_error,
+                orientation_error: command.orientation_error,
+            })
+        };
+        let answer = supervisor.step_with(Some(&measured(&in_rows)), &reference, false, tick);
+        let wrench = answer.command.map_or_else(Wrench::zero, |command| command.desired_wrench);
+        Ok(self.walker.body.commanded(answer.joint_torques.as_flattened(), wrench))
+    }
+
+    fn press(&mut self, time_s: f64, normal_forces: &[f64]) {
+        self.walker.body.time_s = time_s;
+        for (to, force) in self.walker.forces.iter_mut().zip(normal_forces) {
+            *to = T::of(*force);
+        }
+    }
+
+    fn gait(&self) -> Option<GaitTally> {
+        let walker = &self.walker;
+        let begun = walker.commands.iter().find(|command| !command.stand);
+        Some(GaitTally { steps: walker.memory.steps, begun_s: begun.map(|command| command.at_s) })
+    }
+
+    fn limits(&self) -> Option<LimitTally> {
+        Some(self.walker.body.tally.clone())
+    }
+
+    fn stopped(&self) -> Option<StopReason> {
+        self.supervisor.as_ref()?.reason()
+    }
+
+    fn memory(&self) -> Option<record::SupervisorMemory> {
+        Some(recorded(self.supervisor.as_ref()?.memory()))
+    }
+
+    fn remember(&mut self, memory: &record::SupervisorMemory) -> bool {
+        let Some(supervisor) = &mut self.supervisor else { return false };
+        remembered(memory).is_some_and(|memory| {
+            supervisor.remember(memory);
+            true
+        })
+    }
+}
