@@ -34,6 +34,7 @@
 
 pub mod balance;
 pub mod dynamics;
+pub mod estimate;
 pub mod model;
 pub mod qp;
 mod scalar;
