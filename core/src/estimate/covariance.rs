@@ -1,7 +1,7 @@
 //! Storage of `P`, in blocks of 3 × 3.
 
 use crate::Real;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SMatrix, Vector3};
 
 /// Errors of the body: `δr, δv, δθ, δb_f, δb_w`.
 pub(super) const BODY: usize = 5;
@@ -42,11 +42,11 @@ pub(super) struct Covariance<T, const FEET: usize> {
     pub feet: [FootRows<T, FEET>; FEET],
 }
 
-impl<T: Real, const FEET: usize> PerError<Vector3<T>, FEET> {
-    /// No error.
+impl<T: Real, const C: usize, const FEET: usize> PerError<SMatrix<T, 3, C>, FEET> {
+    /// All zero.
     #[inline(always)]
     pub fn zero() -> Self {
-        Self { body: [Vector3::zeros(); BODY], feet: [[Vector3::zeros(); FOOT]; FEET] }
+        Self { body: [SMatrix::zeros(); BODY], feet: [[SMatrix::zeros(); FOOT]; FEET] }
     }
 }
 
@@ -67,12 +67,31 @@ impl<T: Real, const FEET: usize> Covariance<T, FEET> {
     /// `P_jk` for all `j` and the body's error `K`; of errors that are not present, whatever was there.
     #[inline(always)]
     pub fn column<const K: usize>(&self) -> PerError<Matrix3<T>, FEET> {
-        let mut column = PerError {
-            body: self.body[K],
-            feet: self.feet.each_ref().map(|rows| [rows.body[0][K], rows.body[1][K]]),
-        };
+        let mut column = PerError::<Matrix3<T>, FEET>::zero();
         for j in 0..BODY {
             column.body[j] = if j < K { self.body[K][j].transpose() } else { self.body[j][K] };
+        }
+        for (to, rows) in column.feet.iter_mut().zip(&self.feet) {
+            to[0] = rows.body[0][K];
+            to[1] = rows.body[1][K];
+        }
+        column
+    }
+
+    /// Component `axis` of it: a column of `P`.
+    #[inline(always)]
+    pub fn axis<const K: usize>(&self, axis: usize) -> PerError<Vector3<T>, FEET> {
+        let mut column = PerError::<Vector3<T>, FEET>::zero();
+        for j in 0..BODY {
+            column.body[j] = if j < K {
+                row_of(&self.body[K][j], axis)
+            } else {
+                column_of(&self.body[j][K], axis)
+            };
+        }
+        for (to, rows) in column.feet.iter_mut().zip(&self.feet) {
+            to[0] = column_of(&rows.body[0][K], axis);
+            to[1] = column_of(&rows.body[1][K], axis);
         }
         column
     }
@@ -80,21 +99,40 @@ impl<T: Real, const FEET: usize> Covariance<T, FEET> {
     /// `P_jk` for all `j` and error `part` of a foot.
     #[inline(always)]
     pub fn foot_column(&self, foot: usize, part: usize) -> PerError<Matrix3<T>, FEET> {
-        let zero = Matrix3::zeros();
-        let mut column = PerError { body: [zero; BODY], feet: [[zero; FOOT]; FEET] };
+        self.of_foot((foot, part), |block| *block, Matrix3::transpose)
+    }
+
+    /// Component `axis` of it.
+    #[inline(always)]
+    pub fn foot_axis(&self, foot: usize, part: usize, axis: usize) -> PerError<Vector3<T>, FEET> {
+        self.of_foot((foot, part), |block| column_of(block, axis), |block| row_of(block, axis))
+    }
+
+    /// Something of each `P_jk`, from the block as it is kept or the other way round.
+    #[inline(always)]
+    fn of_foot<const C: usize>(
+        &self,
+        (foot, part): (usize, usize),
+        upright: impl Fn(&Matrix3<T>) -> SMatrix<T, 3, C>,
+        transposed: impl Fn(&Matrix3<T>) -> SMatrix<T, 3, C>,
+    ) -> PerError<SMatrix<T, 3, C>, FEET> {
+        let mut column = PerError::<SMatrix<T, 3, C>, FEET>::zero();
         let Some(own) = self.feet.get(foot) else { return column };
-        let [position, orientation] = &own.body;
-        let row = if part == FOOT_POSITION { position } else { orientation };
-        column.body = row.each_ref().map(Matrix3::transpose);
+        for j in 0..BODY {
+            column.body[j] =
+                transposed(if part == FOOT_POSITION { &own.body[0][j] } else { &own.body[1][j] });
+        }
         let all = column.feet.iter_mut().zip(&self.feet).zip(&own.feet).enumerate();
         for (other, ((to, rows), pair)) in all {
             for (p, to) in to.iter_mut().enumerate() {
                 // The block at (other, p) and (foot, part), whichever way round it is kept.
-                *to = if other > foot || (other == foot && p >= part) {
-                    rows.feet.get(foot).map_or(zero, |pair| entry(pair, p, part))
+                if other > foot || (other == foot && p >= part) {
+                    if let Some(pair) = rows.feet.get(foot) {
+                        *to = upright(entry(pair, p, part));
+                    }
                 } else {
-                    entry(pair, part, p).transpose()
-                };
+                    *to = transposed(entry(pair, part, p));
+                }
             }
         }
         column
@@ -141,12 +179,30 @@ impl<T: Real, const FEET: usize> Covariance<T, FEET> {
 }
 
 #[inline(always)]
-fn entry<T: Real>(pair: &[[Matrix3<T>; FOOT]; FOOT], row: usize, column: usize) -> Matrix3<T> {
+fn entry<T>(pair: &[[Matrix3<T>; FOOT]; FOOT], row: usize, column: usize) -> &Matrix3<T> {
     let [[aa, ab], [ba, bb]] = pair;
-    *match (row, column) {
+    match (row, column) {
         (FOOT_POSITION, FOOT_POSITION) => aa,
         (FOOT_POSITION, _) => ab,
         (_, FOOT_POSITION) => ba,
         _ => bb,
+    }
+}
+
+#[inline(always)]
+fn column_of<T: Real>(m: &Matrix3<T>, axis: usize) -> Vector3<T> {
+    match axis {
+        0 => Vector3::new(m.m11, m.m21, m.m31),
+        1 => Vector3::new(m.m12, m.m22, m.m32),
+        _ => Vector3::new(m.m13, m.m23, m.m33),
+    }
+}
+
+#[inline(always)]
+fn row_of<T: Real>(m: &Matrix3<T>, axis: usize) -> Vector3<T> {
+    match axis {
+        0 => Vector3::new(m.m11, m.m12, m.m13),
+        1 => Vector3::new(m.m21, m.m22, m.m23),
+        _ => Vector3::new(m.m31, m.m32, m.m33),
     }
 }

@@ -94,8 +94,7 @@ impl<T: Real, const FEET: usize> Update<'_, T, FEET> {
     /// (7), (8): one error of a foot.
     #[inline(always)]
     pub fn foot_row(&mut self, (foot, part, axis): (usize, usize, usize), y: T, variance: T) {
-        let column = self.covariance.foot_column(foot, part);
-        let q = component(&column, axis);
+        let q = self.covariance.foot_axis(foot, part, axis);
         let known = entry(&self.errors.feet, foot, part);
         let own = entry(&q.feet, foot, part);
         let at = |v: &Vector3<T>| v.get(axis).copied().unwrap_or(T::zero());
@@ -106,7 +105,7 @@ impl<T: Real, const FEET: usize> Update<'_, T, FEET> {
     #[inline(always)]
     pub fn force_direction(&mut self, measured: Vector3<T>, bias: Vector3<T>, variance: T) {
         for axis in 0..2 {
-            let q = component(&self.covariance.column::<ACCELEROMETER>(), axis);
+            let q = self.covariance.axis::<ACCELEROMETER>(axis);
             let s = q.body[ACCELEROMETER][axis] + variance;
             let e = measured[axis] - bias[axis] - self.errors.body[ACCELEROMETER][axis];
             self.one(&q, s, e);
@@ -152,25 +151,6 @@ fn entry<T: Real, const C: usize, const FEET: usize>(
     part: usize,
 ) -> SMatrix<T, 3, C> {
     feet.get(foot).and_then(|parts| parts.get(part)).copied().unwrap_or_else(SMatrix::zeros)
-}
-
-/// Column `axis` of each block.
-#[inline(always)]
-fn component<T: Real, const FEET: usize>(
-    column: &PerError<Matrix3<T>, FEET>,
-    axis: usize,
-) -> PerError<Vector3<T>, FEET> {
-    let of = |block: &Matrix3<T>| -> Vector3<T> {
-        match axis {
-            0 => block.column(0).into(),
-            1 => block.column(1).into(),
-            _ => block.column(2).into(),
-        }
-    };
-    PerError {
-        body: column.body.each_ref().map(of),
-        feet: column.feet.each_ref().map(|parts| parts.each_ref().map(of)),
-    }
 }
 
 /// The rotation vector of a unit quaternion, of less than half a turn.

@@ -45,8 +45,10 @@
 //! is 10° wrong is never recovered; it shows as `|b_f|` beyond its bound ([`Health`]).
 //!
 //! # Cost
-//! Of [`Estimator::step`], f32, two soles of which one is used each tick: see its documentation. A foot that
-//! swings and one that is absent cost nothing; a foot that is a point has no (5) and half the rows.
+//! Of [`Estimator::step`] with two feet, f32, instructions on a Cortex-M4F: two soles of which one is used each
+//! tick ([`Turn::One`]) 22 300, both ([`Turn::All`]) 38 000; one that stands while the other swings 17 700, its
+//! touch-down's tick 25 100; with (9) 27 400, with (7) and (8) 29 900. Two points in turn 11 800. A foot that swings
+//! and one that is absent cost nothing. In f32 the estimate is within 1 µm and 0.01 mm/s of f64's.
 //!
 //! # Sources
 //! M. Bloesch et al., "State estimation for legged robots: consistent fusion of leg kinematics and IMU",

@@ -47,10 +47,14 @@ impl<T: Real> Transition<T> {
         [r + v * self.h, self.velocity(v, t, f), self.tilt(t, w)]
     }
 
-    /// The same of a row's, `X Fᵀ`.
+    /// The same of a row's, `X Fᵀ`, of an error that does not change itself.
     #[inline(always)]
-    fn row(&self, x: &[Matrix3<T>; BODY]) -> [Matrix3<T>; 3] {
-        self.column(&x.each_ref().map(Matrix3::transpose)).map(|block| block.transpose())
+    fn advance_row(&self, row: &mut [Matrix3<T>; BODY]) {
+        let [r, v, t] =
+            self.column(&row.each_ref().map(Matrix3::transpose)).map(|block| block.transpose());
+        row[POSITION] = r;
+        row[VELOCITY] = v;
+        row[TILT] = t;
     }
 }
 
@@ -79,11 +83,7 @@ pub(super) fn predict<T: Real, const FEET: usize>(
     for (rows, is_present) in state.covariance.feet.iter_mut().zip(present) {
         for part in 0..FOOT {
             if is_present[part] {
-                let row = &mut rows.body[part];
-                let [position, velocity, tilt] = f.row(row);
-                row[POSITION] = position;
-                row[VELOCITY] = velocity;
-                row[TILT] = tilt;
+                f.advance_row(&mut rows.body[part]);
             }
         }
     }
@@ -123,20 +123,16 @@ fn body<T: Real, const FEET: usize>(p: &mut Covariance<T, FEET>, f: &Transition<
     p.body[TILT][POSITION] = t0 + t1 * f.h;
     p.body[TILT][VELOCITY] = velocity(&t1, &t2, &t3);
     p.body[TILT][TILT] = tilt(&t2, &t4);
-    for k in [POSITION, VELOCITY, TILT] {
-        mirror(&mut p.body[k][k]);
-    }
+    mirror(&mut p.body[POSITION][POSITION]);
+    mirror(&mut p.body[VELOCITY][VELOCITY]);
+    mirror(&mut p.body[TILT][TILT]);
     // Rows of the biases, which do not change themselves.
-    for k in [ACCELEROMETER, GYROSCOPE] {
-        let mut row = p.body[k];
-        if k == ACCELEROMETER {
-            row[GYROSCOPE] = p.body[GYROSCOPE][ACCELEROMETER].transpose();
-        }
-        let [position, velocity, tilt] = f.row(&row);
-        p.body[k][POSITION] = position;
-        p.body[k][VELOCITY] = velocity;
-        p.body[k][TILT] = tilt;
-    }
+    let mut row = p.body[ACCELEROMETER];
+    row[GYROSCOPE] = p.body[GYROSCOPE][ACCELEROMETER].transpose();
+    f.advance_row(&mut row);
+    row[GYROSCOPE] = Matrix3::zeros();
+    p.body[ACCELEROMETER] = row;
+    f.advance_row(&mut p.body[GYROSCOPE]);
 }
 
 /// Variances that grow in a tick.
@@ -148,14 +144,10 @@ fn add_noise<T: Real, const FEET: usize>(
 ) {
     let noise = &settings.noise;
     let variance = |deviation: T| deviation * deviation * settings.period_s;
-    for (k, deviation) in [
-        (VELOCITY, noise.accelerometer),
-        (TILT, noise.gyroscope),
-        (ACCELEROMETER, noise.accelerometer_drift),
-        (GYROSCOPE, noise.gyroscope_drift),
-    ] {
-        widen(&mut p.body[k][k], variance(deviation));
-    }
+    widen(&mut p.body[VELOCITY][VELOCITY], variance(noise.accelerometer));
+    widen(&mut p.body[TILT][TILT], variance(noise.gyroscope));
+    widen(&mut p.body[ACCELEROMETER][ACCELEROMETER], variance(noise.accelerometer_drift));
+    widen(&mut p.body[GYROSCOPE][GYROSCOPE], variance(noise.gyroscope_drift));
     let parts = [noise.foot_position, noise.foot_orientation].map(variance);
     for (number, (rows, [position, orientation])) in p.feet.iter_mut().zip(present).enumerate() {
         if let Some([[a, _], [_, b]]) = rows.feet.get_mut(number) {

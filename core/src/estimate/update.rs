@@ -77,9 +77,10 @@ pub(super) fn one_row<T: Real, const FEET: usize>(
     for j in 0..BODY {
         let gain = q.body[j] * inverse;
         errors.body[j] += gain * e;
-        for k in 0..=j {
-            p.body[j][k] -= gain * q.body[k].transpose();
+        for k in 0..j {
+            subtract_outer(&mut p.body[j][k], &gain, &q.body[k]);
         }
+        subtract_outer_symmetric(&mut p.body[j][j], &gain, &q.body[j]);
     }
     let feet = p.feet.iter_mut().zip(&mut errors.feet).zip(present).zip(&q.feet).enumerate();
     for (number, (((rows, error), is_present), own)) in feet {
@@ -90,34 +91,22 @@ pub(super) fn one_row<T: Real, const FEET: usize>(
             let gain = own[part] * inverse;
             error[part] += gain * e;
             for k in 0..BODY {
-                rows.body[part][k] -= gain * q.body[k].transpose();
+                subtract_outer(&mut rows.body[part][k], &gain, &q.body[k]);
             }
             let others = rows.feet.iter_mut().zip(&q.feet).zip(present).take(number + 1);
             for (other, ((pair, from), is_present)) in others.enumerate() {
+                let row = &mut pair[part];
                 for k in 0..2 {
-                    if is_present[k] && (other < number || k <= part) {
-                        pair[part][k] -= gain * from[k].transpose();
+                    if other == number && k == part {
+                        subtract_outer_symmetric(&mut row[k], &gain, &from[k]);
+                    } else if is_present[k] && (other < number || k < part) {
+                        subtract_outer(&mut row[k], &gain, &from[k]);
                     }
                 }
             }
         }
     }
-    symmetrize(p);
     true
-}
-
-/// Blocks on the diagonal: `k_i q_j / s` and `k_j q_i / s` differ by round-off.
-#[inline(always)]
-fn symmetrize<T: Real, const FEET: usize>(p: &mut Covariance<T, FEET>) {
-    for k in 0..BODY {
-        mirror(&mut p.body[k][k]);
-    }
-    for (number, rows) in p.feet.iter_mut().enumerate() {
-        if let Some([[a, _], [_, b]]) = rows.feet.get_mut(number) {
-            mirror(a);
-            mirror(b);
-        }
-    }
 }
 
 /// Makes the upper triangle that of the lower.
@@ -146,6 +135,27 @@ fn subtract_symmetric<T: Real>(m: &mut Matrix3<T>, gain: &Matrix3<T>, q: &Matrix
         for r in c..3 {
             m[(r, c)] -=
                 gain[(r, 0)] * q[(c, 0)] + gain[(r, 1)] * q[(c, 1)] + gain[(r, 2)] * q[(c, 2)];
+        }
+    }
+    mirror(m);
+}
+
+/// `M − k qᵀ`.
+#[inline(always)]
+fn subtract_outer<T: Real>(m: &mut Matrix3<T>, gain: &Vector3<T>, q: &Vector3<T>) {
+    for c in 0..3 {
+        for r in 0..3 {
+            m[(r, c)] -= gain[r] * q[c];
+        }
+    }
+}
+
+/// The same where it is symmetric.
+#[inline(always)]
+fn subtract_outer_symmetric<T: Real>(m: &mut Matrix3<T>, gain: &Vector3<T>, q: &Vector3<T>) {
+    for c in 0..3 {
+        for r in c..3 {
+            m[(r, c)] -= gain[r] * q[c];
         }
     }
     mirror(m);

@@ -1,6 +1,6 @@
 //! The motion of `vectors/estimate_vectors.py`, and what sensors read of it.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use std::f64::consts::TAU;
 use surefoot::Real;
 use surefoot::estimate::{
@@ -103,7 +103,7 @@ pub fn readings(tick: u32) -> Readings<f64, 2> {
             position: back.rotate(p - now.position) + noise(tick, 2 + foot) * 2e-4,
             orientation: back.product(phi).product(error),
             is_pressed: stands,
-            is_planned: true,
+            is_planned: stands,
         }
     });
     Readings { imu, feet, feet_force: None }
@@ -135,9 +135,4 @@ pub fn soles<T: Real>() -> Estimator<T, 2> {
 pub fn started<T: Real>(settings: &Estimator<T, 2>) -> EstimatorState<T, 2> {
     let at_rest = rounded(&readings(0));
     EstimatorState::start(settings, &at_rest, &StartPose::origin()).expect("at rest")
-}
-
-/// World from body of an estimate, as a matrix.
-pub fn matrix<T: Real>(q: Quaternion<T>) -> Matrix3<f64> {
-    Quaternion::from_array(q.to_array().map(Real::to_f64)).to_matrix()
 }

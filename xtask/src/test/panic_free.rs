@@ -18,6 +18,7 @@ const CLAIMS: [&str; 5] = [
     "panic-free-whole-body",
     "panic-free-qp",
     "panic-free-dynamics",
+    "panic-free-estimate",
 ];
 
 /// An image that can panic on purpose; a check that finds nothing in it is broken.
