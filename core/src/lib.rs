@@ -35,6 +35,7 @@
 
 pub mod balance;
 pub mod dynamics;
+pub mod estimate;
 pub mod model;
 pub mod qp;
 mod scalar;

@@ -8,9 +8,11 @@ mod controller;
 mod encoders;
 mod errors;
 mod estimate;
+mod estimating;
 mod events;
 pub mod firmware;
 mod gait;
+mod inertial;
 mod lag;
 mod limiting;
 mod memory;
@@ -31,6 +33,7 @@ pub use controller::{
     bare_controller, controller, measured,
 };
 pub use gait::{Gait, GaitTally};
+pub use estimating::{EstimateDoubt, EstimateTally};
 pub use limiting::{LimitTally, WorstLimit};
 pub use outcome::{Failure, Outcome, Peak, Peaks};
 pub use plant::plant;
