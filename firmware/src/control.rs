@@ -142,7 +142,7 @@ impl Control {
             balance: Balance::new(),
             reference: robot::reference(),
             supervisor,
-            deadline: Counter::cost_of(PERIOD),
+            deadline: Counter::deadline(Pacing::LockStep, PERIOD),
             overran: false,
             next_pacing: None,
             #[cfg(feature = "emulation")]
@@ -241,7 +241,7 @@ impl Control {
             return;
         }
         self.balance.configure(settings);
-        self.deadline = Counter::cost_of(settings.period);
+        self.deadline = Counter::deadline(settings.pacing, settings.period);
         self.next_pacing = Some((settings.pacing, settings.period, settings.period_us()));
     }
 

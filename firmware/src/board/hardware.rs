@@ -69,6 +69,8 @@ impl Counter {
     pub const UNIT: surefoot_link::Counter = surefoot_link::Counter::Cycles;
     /// Cost of a second.
     pub const PER_SECOND: u32 = CORE_HZ;
+    /// The same in lock step.
+    pub const LOCK_STEP_PER_SECOND: u32 = CORE_HZ;
 
     /// Turns the counter on.
     pub fn start(mut core: cortex_m::Peripherals) -> Self {

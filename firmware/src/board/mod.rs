@@ -25,6 +25,7 @@ pub use stm32f405::{
     restart, tick_now,
 };
 use surefoot_firmware::watchdog::LONGEST_PERIOD_US;
+use surefoot_link::Pacing;
 
 /// Longest period that timer and watchdog can do, µs.
 pub const LONGEST_US: u32 = if TickTimer::LONGEST_US < LONGEST_PERIOD_US {
@@ -34,9 +35,13 @@ pub const LONGEST_US: u32 = if TickTimer::LONGEST_US < LONGEST_PERIOD_US {
 };
 
 impl Counter {
-    /// Cost of a time in seconds.
+    /// Cost that a tick may have which is due every `period` seconds.
     #[inline(always)]
-    pub fn cost_of(seconds: f32) -> u32 {
-        (seconds * Self::PER_SECOND as f32) as u32
+    pub fn deadline(pacing: Pacing, period: f32) -> u32 {
+        let per_second = match pacing {
+            Pacing::LockStep => Self::LOCK_STEP_PER_SECOND,
+            Pacing::FreeRunning => Self::PER_SECOND,
+        };
+        (period * per_second as f32) as u32
     }
 }
