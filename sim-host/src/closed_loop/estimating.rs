@@ -176,7 +176,8 @@ impl Estimating {
         let all = self.feet_at(&truth.positions);
         let standing = self.pressed.iter().zip(&self.planned).map(|(a, b)| *a && *b);
         let standing: Vec<bool> = standing.collect();
-        let own = || self.feet.iter().zip(&all).zip(&standing).filter(|((foot, _), _)| foot.is_some());
+        let own =
+            || self.feet.iter().zip(&all).zip(&standing).filter(|((foot, _), _)| foot.is_some());
         let is_standing = own().any(|(_, stands)| *stands);
         let chosen = own().filter(|(_, stands)| !is_standing || **stands);
         let points: Vec<Vector3<f64>> = chosen.map(|((_, pose), _)| pose.position).collect();

@@ -14,14 +14,6 @@ use surefoot::estimate::EstimateFault;
 /// The sensors of a robot, read once a tick. Ideal ones read the state as it is.
 #[derive(Clone, Debug)]
 pub struct Sensors {
-    /// Tells the estimator before a tick what force the ground is found to have on all feet together, central body's
-    /// axes, N: of a robot that rests on its feet and on nothing else. Of no use to others.
-    pub fn see_feet_force(&mut self, force: Vector3<f64>) {
-        if let Some(estimating) = &mut self.estimating {
-            estimating.see_feet_force(force);
-        }
-    }
-
     /// What they have read last.
     seen: PlantState,
     encoders: Option<Encoders>,

@@ -184,7 +184,7 @@ force_n = [10.0, 20.0, -15.0]
 
 const HARDWARE: &str = "
 [sensing]
-state = "noise"
+state = \"noise\"
 encoder_counts = 16384
 gyroscope_noise = 1e-3
 accelerometer_noise = 1e-2
