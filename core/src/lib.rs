@@ -13,6 +13,7 @@
 //! - [`qp`]: quadratic programs with soft rows, within a budget of work; no physics.
 //! - [`balance`]: the recursive workspace controller (Alg. 4.1 to 4.6) as one
 //!   [`tick`](balance::tick), from measured state to joint torques or a typed fault.
+//! - [`estimate`]: what sensors and the equations of motion tell that the model does not know.
 //!
 //! # Flow
 //! A result is a small struct which the next function demands by reference:
@@ -34,6 +35,7 @@
 
 pub mod balance;
 pub mod dynamics;
+pub mod estimate;
 pub mod model;
 pub mod qp;
 mod scalar;

@@ -37,4 +37,4 @@ mod tick;
 pub use limits::{Ground, WrenchLimits, WrenchLimitsFault};
 pub use memory::{BindingRows, LimitMemory};
 pub use report::{BrokenLimit, LimitReport, LimitSet, LimitedCommand};
-pub use tick::limited_tick;
+pub use tick::{limited_tick, limited_tick_under};

@@ -67,12 +67,46 @@ pub fn limited_tick<T: Real, const LEGS: usize>(
     contacts: &[bool; LEGS],
     memory: &mut LimitMemory<T>,
 ) -> Result<LimitedCommand<T, LEGS>, Fault> {
+    tick_under(controller, limits, state, reference, (contacts, None), memory)
+}
+
+/// The same for a robot on whose central body a known wrench acts from outside, about its centre of mass in
+/// world axes (N, N·m): the feet are asked for what is left, and carry that.
+///
+/// # Errors
+/// As of [`limited_tick`]; [`Fault::Overflow`] for a wrench that is not finite.
+#[inline]
+pub fn limited_tick_under<T: Real, const LEGS: usize>(
+    controller: &Controller<'_, T, LEGS>,
+    limits: &WrenchLimits<T, LEGS>,
+    state: &RobotState<T, LEGS>,
+    reference: &Reference<T>,
+    (contacts, external): (&[bool; LEGS], Wrench<T>),
+    memory: &mut LimitMemory<T>,
+) -> Result<LimitedCommand<T, LEGS>, Fault> {
+    tick_under(controller, limits, state, reference, (contacts, Some(external)), memory)
+}
+
+/// Of either, in one piece: without a wrench nothing of it runs.
+#[inline(always)]
+fn tick_under<T: Real, const LEGS: usize>(
+    controller: &Controller<'_, T, LEGS>,
+    limits: &WrenchLimits<T, LEGS>,
+    state: &RobotState<T, LEGS>,
+    reference: &Reference<T>,
+    (contacts, external): (&[bool; LEGS], Option<Wrench<T>>),
+    memory: &mut LimitMemory<T>,
+) -> Result<LimitedCommand<T, LEGS>, Fault> {
     check_finite(state, reference)?;
     let central = central_body(controller.robot, state)?;
     let desired = desired_acceleration(&controller.gains, &central, state.position, reference)?;
     let mut legs = [LegKinematics::empty(); LEGS];
     walk_legs::<T, LEGS, true>(controller.robot, &central, state, &mut legs);
-    let robot = Standing { controller, limits, central: &central, legs: &legs, contacts };
+    let external = external.map(|w| Wrench {
+        force: central.rotation.tr_mul(&w.force),
+        torque: central.rotation.tr_mul(&w.torque),
+    });
+    let robot = Standing { controller, limits, central: &central, legs: &legs, contacts, external };
     let is_standing = contacts.iter().all(|stands| *stands);
     let was_free = memory.active.is_empty();
     let mut asked =
@@ -120,6 +154,8 @@ struct Standing<'a, T, const LEGS: usize> {
     central: &'a CentralBody<T>,
     legs: &'a [LegKinematics<T>; LEGS],
     contacts: &'a [bool; LEGS],
+    /// From outside, frame 1.
+    external: Option<Wrench<T>>,
 }
 
 /// The printed split of the desired wrench, and whether it breaks a limit.
@@ -141,12 +177,15 @@ impl<T: Real, const LEGS: usize> Standing<'_, T, LEGS> {
     /// With what creeps coming to rest.
     #[inline(never)]
     fn at_rest(&self, x: Twist<T>) -> Result<Asked<T, LEGS>, Fault> {
-        let Self { controller, limits, central, legs, contacts } = self;
+        let Self { controller, limits, central, legs, contacts, .. } = self;
         self.split(loads_at_rest(controller, limits, central, legs, contacts, x)?)
     }
 
     #[inline(always)]
-    fn split(&self, loads: Loads<T, LEGS>) -> Result<Asked<T, LEGS>, Fault> {
+    fn split(&self, mut loads: Loads<T, LEGS>) -> Result<Asked<T, LEGS>, Fault> {
+        if let Some(external) = self.external {
+            loads.desired -= external;
+        }
         let mut positions = [None; LEGS];
         for ((position, leg), stands) in positions.iter_mut().zip(self.legs).zip(self.contacts) {
             *position = stands.then_some(leg.foot.position);
