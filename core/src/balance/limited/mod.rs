@@ -31,6 +31,7 @@
 mod limits;
 mod loads;
 mod memory;
+mod outside;
 mod report;
 mod tick;
 
