@@ -40,9 +40,11 @@ impl<T: Real, const LEGS: usize> SupervisedController<T, LEGS> {
 
 impl<T: Real, const LEGS: usize> Controller for SupervisedController<T, LEGS> {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
-        let reference = self.inner.reference;
+        self.inner.look(state);
+        let reference = self.inner.reference();
         let tick = |now: &_| self.inner.command(now);
         let answer = self.supervisor.step_with(Some(&measured(state)), &reference, false, tick);
+        self.inner.sent(&answer.joint_torques);
         let wrench = answer.command.map_or_else(Wrench::zero, |command| command.desired_wrench);
         Ok(commanded(answer.joint_torques, wrench))
     }

@@ -16,8 +16,8 @@ use surefoot::balance::{
 };
 use surefoot::model::Tree;
 use surefoot::spatial::Quaternion;
-use surefoot_tests::legged_trees::near_stance as state;
 pub use surefoot_tests::legged_trees::feet_f32;
+use surefoot_tests::legged_trees::near_stance as state;
 use surefoot_tests::random_trees::symmetric;
 
 fn reference<T: Real>(rng: &mut Pcg64, share: f64) -> Reference<T> {

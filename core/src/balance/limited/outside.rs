@@ -1,4 +1,4 @@
-//! What acts on the central body from outside: a wrench that is known, or nothing, which costs nothing.
+//! What acts on the central body from outside: a wrench that may be known, or none ever, which costs nothing.
 
 use crate::Real;
 use crate::spatial::Wrench;
@@ -23,14 +23,14 @@ impl<T: Real> Outside<T> for () {
     }
 }
 
-impl<T: Real> Outside<T> for Wrench<T> {
+impl<T: Real> Outside<T> for Option<Wrench<T>> {
     #[inline(always)]
     fn in_frame_1(self, central: &Matrix3<T>) -> Self {
-        Self { force: central.tr_mul(&self.force), torque: central.tr_mul(&self.torque) }
+        self.map(|w| Wrench { force: central.tr_mul(&w.force), torque: central.tr_mul(&w.torque) })
     }
 
     #[inline(always)]
     fn less(self, desired: Wrench<T>) -> Wrench<T> {
-        desired - self
+        self.map_or(desired, |w| desired - w)
     }
 }

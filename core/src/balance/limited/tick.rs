@@ -72,7 +72,7 @@ pub fn limited_tick<T: Real, const LEGS: usize>(
 }
 
 /// The same for a robot on whose central body a known wrench acts from outside, about its centre of mass in
-/// world axes (N, N·m): the feet are asked for what is left, and carry that.
+/// world axes (N, N·m): the feet are asked for what is left. `None` where nobody knows of one.
 ///
 /// # Errors
 /// As of [`limited_tick`]; [`Fault::Overflow`] for a wrench that is not finite.
@@ -82,7 +82,7 @@ pub fn limited_tick_under<T: Real, const LEGS: usize>(
     limits: &WrenchLimits<T, LEGS>,
     state: &RobotState<T, LEGS>,
     reference: &Reference<T>,
-    (contacts, external): (&[bool; LEGS], Wrench<T>),
+    (contacts, external): (&[bool; LEGS], Option<Wrench<T>>),
     memory: &mut LimitMemory<T>,
 ) -> Result<LimitedCommand<T, LEGS>, Fault> {
     tick_under(controller, limits, state, reference, (contacts, external), memory)

@@ -26,6 +26,26 @@ pub struct WholeBodyFoot<T> {
     pub limits: ContactLimits<T, 0>,
 }
 
+impl<T: Real> WholeBodyFoot<T> {
+    /// The same in another precision.
+    pub fn rounded<U: Real>(&self) -> WholeBodyFoot<U> {
+        let round = |x: T| U::of(x.to_f64());
+        let limits = &self.limits;
+        WholeBodyFoot {
+            body: self.body,
+            reference: self.reference.map(round),
+            axes: Quaternion::from_array(self.axes.to_array().map(round)),
+            limits: ContactLimits {
+                least_force: round(limits.least_force),
+                greatest_force: round(limits.greatest_force),
+                friction: round(limits.friction),
+                patch: limits.patch.rounded(),
+                torques: [],
+            },
+        }
+    }
+}
+
 /// A foot with its leg.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Leg<T> {

@@ -62,7 +62,7 @@ pub fn whole_body_tick<
 }
 
 /// The same for a robot on whose central body a known wrench acts from outside, about its centre of mass in
-/// world axes (N, N·m).
+/// world axes (N, N·m); `None` where nobody knows of one.
 ///
 /// # Errors
 /// As of [`whole_body_tick`]; [`Fault::Overflow`] for a wrench that is not finite.
@@ -77,10 +77,10 @@ pub fn whole_body_tick_under<
     controller: &WholeBodyController<'_, T, N, NQ, NV, FEET>,
     state: &WholeBodyState<T, NQ, NV>,
     reference: &Reference<T>,
-    (contacts, external): (&[bool; FEET], Wrench<T>),
+    (contacts, external): (&[bool; FEET], Option<Wrench<T>>),
     memory: &mut WholeBodyMemory<T>,
 ) -> Result<WholeBodyCommand<T, FEET, NV>, Fault> {
-    tick_under(controller, state, reference, (contacts, Some(external)), memory)
+    tick_under(controller, state, reference, (contacts, external), memory)
 }
 
 /// Of either, in one piece: without a wrench nothing of it runs.

@@ -1,0 +1,142 @@
+//! The observer of disturbances in the loop: what a controller is told beside its state.
+
+use super::at_rest::nominal;
+use crate::plant::PlantState;
+use crate::robot::Contacts;
+use crate::scene::{Disturbance, Scene};
+use nalgebra::Vector3;
+use surefoot::Real;
+use surefoot::balance::{Reference, WholeBody, WholeBodyState};
+use surefoot::estimate::{DisturbanceObserver, DisturbanceSettings};
+use surefoot::model::Tree;
+use surefoot::spatial::Wrench;
+
+/// Feet that core has room for.
+const FEET: usize = 4;
+
+/// An observer of a robot of any size.
+pub(super) trait Observe<T> {
+    /// Another tick's state. A state that is none leaves all as it was.
+    fn look(&mut self, state: &PlantState);
+
+    /// Which feet touch the ground at the next tick.
+    fn touch(&mut self, feet: &[bool]);
+
+    /// The torques of the robot's joints that are sent until the next tick, N·m.
+    fn sent(&mut self, torques: &[T]);
+
+    /// The wrench from outside on the central body, world axes.
+    fn wrench(&self) -> Wrench<T>;
+
+    /// The set point, moved so that the robot stands over its feet.
+    fn reference(&self, wanted: &Reference<T>) -> Reference<T>;
+
+    /// Sum of the forces on the feet in the central body's axes, N, while all of them stand.
+    fn support(&self) -> Option<Vector3<T>>;
+
+    /// All that it remembers.
+    fn memory(&self) -> Vec<f64>;
+
+    /// Goes on with it; `false` if it is of another robot.
+    fn resume(&mut self, memory: &[f64]) -> bool;
+}
+
+/// Of a scene whose controller observes disturbances.
+///
+/// # Panics
+/// For a scene that is not checked.
+pub(super) fn observer<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: Tree<T, N, NQ, NV>,
+    scene: &Scene,
+) -> Option<Box<dyn Observe<T>>> {
+    (scene.controller.disturbance == Disturbance::Observed)
+        .then(|| Box::new(Observing::new(tree, scene)) as Box<dyn Observe<T>>)
+}
+
+struct Observing<T, const N: usize, const NQ: usize, const NV: usize> {
+    tree: Tree<T, N, NQ, NV>,
+    model: WholeBody<T, FEET, NV>,
+    observer: DisturbanceObserver<T, N, NQ, NV>,
+    contacts: [bool; FEET],
+    torques: [T; NV],
+    state: Option<WholeBodyState<T, NQ, NV>>,
+    support: Option<Vector3<T>>,
+}
+
+impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Observing<T, N, NQ, NV> {
+    fn new(tree: Tree<T, N, NQ, NV>, scene: &Scene) -> Self {
+        let robot = scene.robot();
+        let contacts = Contacts::of(&robot).expect("a robot with feet on legs");
+        let feet = contacts.feet.map(|foot| foot.map(|foot| foot.rounded()));
+        let model = WholeBody::new(&tree, &feet).expect("a robot with feet on legs");
+        let (nominal, height) = nominal(scene);
+        let gravity = robot.tree.gravity().norm();
+        let settings = DisturbanceSettings::scaled(
+            T::of(robot.tree.mass()),
+            T::of(gravity),
+            T::of(height),
+            T::of(1.0 / scene.controller.rate_hz),
+            nominal.map(T::of),
+        );
+        let settings = settings.expect("a robot with mass above its feet");
+        Self {
+            observer: DisturbanceObserver::new(settings).expect("starting values, a checked rate"),
+            tree,
+            model,
+            contacts: [true; FEET],
+            torques: [T::zero(); NV],
+            state: None,
+            support: None,
+        }
+    }
+}
+
+impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Observe<T>
+    for Observing<T, N, NQ, NV>
+{
+    fn look(&mut self, state: &PlantState) {
+        let of = |numbers: &[f64], i: usize| T::of(numbers.get(i).copied().unwrap_or(0.0));
+        let state = WholeBodyState {
+            positions: std::array::from_fn(|i| of(&state.positions, i)),
+            velocities: std::array::from_fn(|i| of(&state.velocities, i)),
+        };
+        let Self { tree, model, observer, contacts, torques, .. } = self;
+        let seen = observer.update(tree, model, &state, torques, contacts);
+        self.state = seen.is_ok().then_some(state);
+        let stands = contacts.iter().all(|touches| *touches);
+        self.support = seen.ok().flatten().filter(|_| stands).map(|seen| seen.support);
+    }
+
+    fn touch(&mut self, feet: &[bool]) {
+        for (to, touches) in self.contacts.iter_mut().zip(feet) {
+            *to = *touches;
+        }
+    }
+
+    fn sent(&mut self, torques: &[T]) {
+        self.torques[6..].iter_mut().zip(torques).for_each(|(to, torque)| *to = *torque);
+    }
+
+    fn wrench(&self) -> Wrench<T> {
+        self.observer.wrench.wrench
+    }
+
+    fn reference(&self, wanted: &Reference<T>) -> Reference<T> {
+        let Some(state) = &self.state else { return *wanted };
+        let seen = Vector3::from_fn(|i, _| state.positions[i]);
+        let position = self.observer.balance.reference(seen, wanted.position);
+        Reference { position, ..*wanted }
+    }
+
+    fn support(&self) -> Option<Vector3<T>> {
+        self.support
+    }
+
+    fn memory(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    fn resume(&mut self, _memory: &[f64]) -> bool {
+        false
+    }
+}
