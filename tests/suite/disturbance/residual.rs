@@ -1,5 +1,6 @@
 //! The residual against forward dynamics: what acts from outside in a motion is what is read of it.
 
+use super::in_axes;
 use nalgebra::Vector3;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -67,10 +68,6 @@ fn case<const N: usize, const NQ: usize, const NV: usize>(
         *v += a * PERIOD;
     }
     Case { states: [state, next], torques, on_central, on_feet }
-}
-
-fn in_axes(body: &surefoot::spatial::Pose<f64>, w: Wrench<f64>) -> Wrench<f64> {
-    Wrench { force: body.rotation.tr_mul(&w.force), torque: body.rotation.tr_mul(&w.torque) }
 }
 
 /// Largest difference of wrenches, N and N·m.
