@@ -82,6 +82,16 @@ pub trait Controller {
         let _ = rows;
     }
 
+    /// What its observer of disturbances remembers of earlier ticks; nothing where it has none.
+    fn observed(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Goes on with that; `false` if it is of another observer.
+    fn resume_observed(&mut self, memory: &[f64]) -> bool {
+        memory.is_empty()
+    }
+
     /// What its ticks have cost so far, if it runs on a target that counts.
     fn costs(&self) -> Option<Costs> {
         None
@@ -362,6 +372,14 @@ impl<T: Real, const LEGS: usize> Controller for HostController<T, LEGS> {
         if let Some(limiting) = &mut self.limiting {
             limiting.resume(rows);
         }
+    }
+
+    fn observed(&self) -> Vec<f64> {
+        self.observer.as_ref().map_or_else(Vec::new, |observer| observer.memory())
+    }
+
+    fn resume_observed(&mut self, memory: &[f64]) -> bool {
+        memory.is_empty() || self.observer.as_mut().is_some_and(|own| own.resume(memory))
     }
 }
 

@@ -11,6 +11,8 @@ use surefoot::estimate::{DisturbanceObserver, DisturbanceSettings};
 use surefoot::model::Tree;
 use surefoot::spatial::Wrench;
 
+/// What is remembered beside state, torques and residual.
+const NUMBERS: usize = 6 + 1 + 6 + 10;
 /// Feet that core has room for.
 const FEET: usize = 4;
 
@@ -133,10 +135,63 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Observe<T>
     }
 
     fn memory(&self) -> Vec<f64> {
-        Vec::new()
+        let Some(state) = &self.state else { return Vec::new() };
+        let DisturbanceObserver { residual, wrench, balance, since, .. } = &self.observer;
+        let is_some = |there: bool| T::of(f64::from(u8::from(there)));
+        let rest = wrench.at_rest.unwrap_or(Wrench::zero()).to_array();
+        let mut all = Vec::new();
+        for part in [&state.positions[..], &state.velocities, &self.torques, residual.r()] {
+            all.extend(part.iter().map(|x| x.to_f64()));
+        }
+        for part in [
+            &wrench.wrench.to_array()[..],
+            &[is_some(wrench.at_rest.is_some())],
+            &rest,
+            &[wrench.awake, is_some(balance.from_feet.is_some())],
+            &balance.from_feet.unwrap_or([T::zero(); 2]),
+            &balance.offset,
+            balance.feet.as_slice(),
+            &[*since],
+        ] {
+            all.extend(part.iter().map(|x| x.to_f64()));
+        }
+        all
     }
 
-    fn resume(&mut self, _memory: &[f64]) -> bool {
-        false
+    fn resume(&mut self, memory: &[f64]) -> bool {
+        let mut numbers = memory.iter().map(|x| T::of(*x));
+        let mut take = || numbers.next();
+        let mut read = || -> Option<()> {
+            let mut state =
+                WholeBodyState { positions: [T::zero(); NQ], velocities: [T::zero(); NV] };
+            let mut r = [T::zero(); NV];
+            let mut torques = r;
+            for part in [&mut state.positions[..], &mut state.velocities, &mut torques, &mut r] {
+                for x in part {
+                    *x = take()?;
+                }
+            }
+            let mut rest = [T::zero(); NUMBERS];
+            for x in &mut rest {
+                *x = take()?;
+            }
+            let (wrench, rest) = rest.split_first_chunk::<6>()?;
+            let (rests, rest) = rest.split_first()?;
+            let (at_rest, rest) = rest.split_first_chunk::<6>()?;
+            let [awake, stands, x, y, dx, dy, fx, fy, fz, since] = *rest.first_chunk::<10>()?;
+            let observer = &mut self.observer;
+            observer.residual.restore(&self.tree, &state, &r);
+            observer.wrench.wrench = Wrench::from_array(*wrench);
+            observer.wrench.at_rest = (*rests != T::zero()).then(|| Wrench::from_array(*at_rest));
+            observer.wrench.awake = awake;
+            observer.balance.from_feet = (stands != T::zero()).then_some([x, y]);
+            observer.balance.offset = [dx, dy];
+            observer.balance.feet = Vector3::new(fx, fy, fz);
+            observer.since = since;
+            self.torques = torques;
+            self.state = Some(state);
+            Some(())
+        };
+        read().is_some()
     }
 }

@@ -65,6 +65,14 @@ impl<T: Real, const LEGS: usize> Controller for SupervisedController<T, LEGS> {
         self.inner.resume_limits(rows);
     }
 
+    fn observed(&self) -> Vec<f64> {
+        self.inner.observed()
+    }
+
+    fn resume_observed(&mut self, memory: &[f64]) -> bool {
+        self.inner.resume_observed(memory)
+    }
+
     fn stopped(&self) -> Option<StopReason> {
         self.supervisor.reason()
     }

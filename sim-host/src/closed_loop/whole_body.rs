@@ -222,6 +222,14 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Controller
         let rows = rows.iter().map(|(row, multiplier)| (*row, T::of(*multiplier)));
         self.memory = WholeBodyMemory::of(rows);
     }
+
+    fn observed(&self) -> Vec<f64> {
+        self.observer.as_ref().map_or_else(Vec::new, |observer| observer.memory())
+    }
+
+    fn resume_observed(&mut self, memory: &[f64]) -> bool {
+        memory.is_empty() || self.observer.as_mut().is_some_and(|own| own.resume(memory))
+    }
 }
 
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usize>
@@ -301,6 +309,14 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
 
     fn resume_limits(&mut self, rows: &[(u8, f64)]) {
         self.inner.resume_limits(rows);
+    }
+
+    fn observed(&self) -> Vec<f64> {
+        self.inner.observed()
+    }
+
+    fn resume_observed(&mut self, memory: &[f64]) -> bool {
+        self.inner.resume_observed(memory)
     }
 
     fn stopped(&self) -> Option<StopReason> {
