@@ -13,7 +13,7 @@
 //! - [`qp`]: quadratic programs with soft rows, within a budget of work; no physics.
 //! - [`balance`]: the recursive workspace controller (Alg. 4.1 to 4.6) as one
 //!   [`tick`](balance::tick), from measured state to joint torques or a typed fault.
-//! - [`estimate`]: what sensors and the equations of motion tell that the model does not know.
+//! - [`disturbance`]: what the equations of motion tell that the model does not know.
 //!
 //! # Flow
 //! A result is a small struct which the next function demands by reference:
@@ -34,8 +34,8 @@
 #![forbid(unsafe_code)]
 
 pub mod balance;
+pub mod disturbance;
 pub mod dynamics;
-pub mod estimate;
 pub mod model;
 pub mod qp;
 mod scalar;

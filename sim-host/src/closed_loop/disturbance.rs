@@ -7,7 +7,7 @@ use crate::scene::{Disturbance, Scene};
 use nalgebra::Vector3;
 use surefoot::Real;
 use surefoot::balance::{Reference, WholeBody, WholeBodyState};
-use surefoot::estimate::{DisturbanceObserver, DisturbanceSettings};
+use surefoot::disturbance::{DisturbanceObserver, DisturbanceSettings};
 use surefoot::model::Tree;
 use surefoot::spatial::Wrench;
 

@@ -15,7 +15,7 @@ use surefoot::balance::{
     WholeBodyMemory, WholeBodySettings, WholeBodyState, WorkspaceForm, WrenchLimits, limited_tick,
     tick, whole_body_tick,
 };
-use surefoot::estimate::{
+use surefoot::disturbance::{
     DisturbanceObserver, DisturbanceSettings, ForceContact, ForceThresholds, friction_compensation,
     seen_friction,
 };

@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use surefoot::Real;
 use surefoot::balance::{WholeBody, WholeBodyFoot, WholeBodyState};
 use surefoot::dynamics::{body_poses, inverse_dynamics, joint_poses};
-use surefoot::estimate::{
+use surefoot::disturbance::{
     BalancePoint, BalancePointSettings, Disturbance, DisturbanceObserver, DisturbanceSettings, ExternalWrench, ExternalWrenchSettings,
     ForceContact, ForceThresholds, ObserverFault,
 };
@@ -268,7 +268,7 @@ fn force_contact_has_two_thresholds() {
     let mut contact = ForceContact::<2>::new();
     let foot = |z: f64| {
         let wrench = Wrench { force: Vector3::new(0.0, 0.0, z), torque: Vector3::zeros() };
-        Some(surefoot::estimate::FootForce { wrench, position: Vector3::zeros() })
+        Some(surefoot::disturbance::FootForce { wrench, position: Vector3::zeros() })
     };
     for (z, touches) in [(50.0, true), (20.0, false), (50.0, false), (90.0, true), (40.0, true)] {
         contact.update(&thresholds, &[foot(z), None]);

@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 use surefoot::Real;
 use surefoot::balance::{WholeBody, WholeBodyFoot, WholeBodyState};
 use surefoot::dynamics::{DynamicsFault, body_poses, forward_dynamics, joint_poses};
-use surefoot::estimate::{ObserverFault, Residual, ground_forces};
+use surefoot::disturbance::{ObserverFault, Residual, ground_forces};
 use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, Wrench};
 use surefoot_tests::legged_trees::{Legged, feet_f32, five, near_stance, quadruped, seven};

@@ -1,4 +1,5 @@
-//! What sensors and the equations of motion tell that the model does not know.
+//! What the equations of motion tell that the model does not know: loads, a centre of mass that is elsewhere, the
+//! ground's forces.
 //!
 //! ```text
 //! state, torques sent ─► residual of the equations of motion ─► ground's force on each foot ─► contact, tilt
