@@ -22,6 +22,11 @@ pub fn rotors() -> Value {
     parse(include_str!("vectors/rotor_vectors.json"))
 }
 
+/// A motion of 10 s through an error-state Kalman filter in numpy, made by `vectors/estimate_vectors.py`.
+pub fn estimates() -> Value {
+    parse(include_str!("vectors/estimate_vectors.json"))
+}
+
 pub(crate) fn parse(text: &str) -> Value {
     serde_json::from_str(text).expect("the vectors are valid JSON")
 }

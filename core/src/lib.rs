@@ -36,6 +36,7 @@
 pub mod balance;
 pub mod disturbance;
 pub mod dynamics;
+pub mod estimate;
 pub mod model;
 pub mod qp;
 mod scalar;

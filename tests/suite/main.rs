@@ -4,6 +4,7 @@ mod balance;
 mod closed_loop;
 mod documents;
 mod dynamics;
+mod estimate;
 mod mechanics;
 mod multibody;
 mod precision;

@@ -3,7 +3,7 @@
 use super::controller::Place;
 use crate::closed_loop::{Costs, CutTorques, Outcome, Peaks, Run, Scalar, WorstLimit, rest_error};
 use crate::experiments::{printed_figures, reading};
-use crate::record::Sample;
+use crate::record::{Sample, WorstErrors};
 use crate::scene::{Scene, TorquesFrom};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -137,6 +137,19 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
             last.error_angle().to_degrees(),
         )?;
     }
+    if let Some(WorstErrors { last, worst }) = WorstErrors::of(&run.samples) {
+        writeln!(
+            out,
+            "  estimate: off by {:.2} mm, {:.3}° of tilt at the end; {:.2} mm, {:.3}° at most",
+            1e3 * last.position_error_m,
+            last.tilt_error_rad.to_degrees(),
+            1e3 * worst.position_error_m,
+            worst.tilt_error_rad.to_degrees(),
+        )?;
+    }
+    if let Some(first) = run.estimate.as_ref().and_then(|tally| tally.first.as_ref()) {
+        writeln!(out, "  the estimator doubts from {:.3} s on: {}", first.time_s, first.what)?;
+    }
     let peaks = Peaks::of(&run.samples);
     if let Some((joint, peak)) = peaks.as_ref().and_then(|peaks| peaks.largest_joint(&robot)) {
         writeln!(out, "  largest torque: {joint}, {:.1} N·m at {:.3} s", peak.value, peak.time_s)?;
@@ -247,6 +260,13 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "peak_torque_nm": peak_torque,
         "cut_torques": run.cut_torques,
         "limits": run.limits,
+        "estimate": WorstErrors::of(&run.samples).map(|errors| json!({
+            "final": errors.last,
+            "worst": errors.worst,
+            "feet_made_anew": run.estimate.as_ref().map(|tally| tally.feet_made_anew),
+            "doubtful_ticks": run.estimate.as_ref().map(|tally| tally.doubtful_ticks),
+            "first_doubt": run.estimate.as_ref().and_then(|tally| tally.first.as_ref()),
+        })),
         "supervisor": (*controller != Place::Bare).then(|| json!({
             "stopped": run.stop.is_some(),
             "time_s": run.stop.map(|stop| stop.time_s),

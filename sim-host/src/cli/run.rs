@@ -13,7 +13,7 @@ use crate::follow::Until;
 use crate::integrators::Method;
 use crate::record::{MotionIdentity, RobotRecord, SavedRun};
 use crate::report::page;
-use crate::scene::{AnyScene, Feet, Scene, TorquesFrom, open};
+use crate::scene::{AnyScene, Feet, Scene, StateSource, TorquesFrom, open};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
@@ -99,6 +99,12 @@ impl Options {
         Err(what.to_owned())
     }
 
+    /// The option that wants a run to be taken up again.
+    fn keeps(&self) -> Option<&'static str> {
+        let resumes = self.resume.as_ref().map(|_| "--resume");
+        self.save.as_ref().map(|_| "--save").or(resumes)
+    }
+
     /// Writes where a run stopped, if that is wanted; a run that failed has no such place.
     pub(super) fn write_saved(&self, saved: Option<&SavedRun>) -> Result<(), String> {
         match (&self.save, saved) {
@@ -140,6 +146,13 @@ fn run_robot(scene: Scene, options: &Options) -> Result<ExitCode, String> {
     }
     let folder = options.folder(&scene.name, saved.as_ref());
     keeps_record(&folder, saved.as_ref())?;
+    if scene.sensing.state == StateSource::Estimate
+        && let Some(option) = options.keeps()
+    {
+        return Err(format!(
+            "{option}: a run whose state is estimated (`sensing.state`) cannot be taken up again"
+        ));
+    }
     options.check_save(scene.integrator.name == Method::Variational)?;
     let warnings = scene.warnings();
     warn(&warnings);

@@ -121,7 +121,7 @@ impl Estimate {
 
 /// Two independent standard normal numbers, by Marsaglia's polar method: its one transcendental function is
 /// libm's, so that a seed gives the same noise on every machine.
-fn normal_pair(random: &mut Pcg64Mcg) -> [f64; 2] {
+pub(super) fn normal_pair(random: &mut Pcg64Mcg) -> [f64; 2] {
     loop {
         let [x, y]: [f64; 2] = std::array::from_fn(|_| random.random_range(-1.0..1.0));
         let square = x * x + y * y;

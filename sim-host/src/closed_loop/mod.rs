@@ -10,8 +10,10 @@ mod disturbance;
 mod encoders;
 mod errors;
 mod estimate;
+mod estimating;
 mod events;
 pub mod firmware;
+mod inertial;
 mod lag;
 mod limiting;
 mod memory;
@@ -30,6 +32,7 @@ pub use controller::{
     Commanded, ControlFailure, Controller, Costs, HostController, Scalar, approximate_controller,
     bare_controller, controller, measured,
 };
+pub use estimating::{EstimateDoubt, EstimateTally};
 pub use limiting::{LimitTally, WorstLimit};
 pub use outcome::{Failure, Outcome, Peak, Peaks};
 pub use plant::plant;

@@ -7,7 +7,8 @@ use super::events::Watch;
 use super::memory::{memory, remember};
 use super::plant::plant;
 use super::{
-    Commanded, Controller, Costs, CutTorques, Failure, LimitTally, Motors, Outcome, Sensors,
+    Commanded, Controller, Costs, CutTorques, EstimateTally, Failure, LimitTally, Motors, Outcome,
+    Sensors,
 };
 use crate::contact::ContactState;
 use crate::follow::Follow;
@@ -16,10 +17,11 @@ use crate::multibody::SystemError;
 use crate::plant::{PerPoint, Plant, PlantState};
 use crate::record::{Event, MotionIdentity, Sample, SavedMotion, SavedRun};
 use crate::robot::{LEG, Robot};
-use crate::scene::{Scene, TorquesFrom};
+use crate::scene::{Feet, Scene, TorquesFrom};
 use nalgebra::Vector3;
 use std::time::{Duration, Instant};
 use surefoot::balance::StopReason;
+use surefoot::estimate::EstimateFault;
 use surefoot::spatial::Quaternion;
 
 /// What a run gives.
@@ -51,6 +53,8 @@ pub struct Run {
     pub costs: Option<Costs>,
     /// What limits of ground and motors have done, where the controller knows them.
     pub limits: Option<LimitTally>,
+    /// What the state estimator has said, where there is one.
+    pub estimate: Option<EstimateTally>,
     /// What the motors could not give.
     pub cut_torques: CutTorques,
     /// That the controller's supervisor has stopped the robot.
@@ -133,6 +137,7 @@ impl Run {
             saved: None,
             costs: None,
             limits: None,
+            estimate: None,
             cut_torques: CutTorques::default(),
             stop: None,
         }
@@ -174,10 +179,13 @@ fn advance(
     let (mut state, mut contacts) = (PlantState::home(joints), PerPoint::new());
     let mut feet = Vec::with_capacity(robot.leg_count());
     let mut touched = scene.controller.torques_from == TorquesFrom::Start;
-    let mut sensors = Sensors::new(&scene.sensing, steps_per_tick as f64 * step, &robot.columns);
+    let mut sensors = Sensors::of_robot(&scene.sensing, steps_per_tick as f64 * step, &robot);
     let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize, joints);
     let mut first = 0;
     if let Some(saved) = from {
+        if sensors.is_estimating() {
+            return Err(not_resumed());
+        }
         let SavedRun { torques_on, checkpoint, hardware, supervisor, motion, .. } = saved;
         if let Some(difference) = motion.difference(&MotionIdentity::of_robot(scene)) {
             return Err(other_motion(&difference));
@@ -224,17 +232,31 @@ fn advance(
             feet.extend(contacts.iter().map(|foot| foot.iter().any(|s| *s != ContactState::Free)));
             controller.touch(time, &feet);
         }
-        let command = command(sensors.read(&state), controller, touched, time)?;
+        if sensors.is_estimating() {
+            let seen = plant.observe().map_err(|failure| step_failure(time, failure))?;
+            let held = matches!(scene.feet, Feet::Welded {}).then_some(f64::INFINITY);
+            sensors.see_feet(seen.foot_forces.iter().map(|force| held.unwrap_or(*force)), None);
+        }
+        let measured = sensors.read(&state);
+        let command = command(measured, controller, touched, time)?;
+        run.estimate = sensors.tally().cloned();
+        if let Some(fault) = sensors.fault() {
+            return Err(estimator_failed(time, fault));
+        }
         if run.stop.is_none() {
             run.stop = controller.stopped().map(|reason| Stop { time_s: time, reason });
         }
         motors.command(&command.torques, time);
         run.cut_torques = motors.cut();
         sample(plant, scene, &state, (&command.desired_wrench, motors.over_step(0)), time, run)?;
+        if let (true, Some(last)) = (sensors.is_estimating(), run.samples.last_mut()) {
+            last.estimate = Some(central(sensors.seen()));
+        }
         fallen(&state, robot.fallen_height, time)?;
         if is_last {
             run.is_interrupted = is_interrupted;
-            run.saved = plant.checkpoint().map(|checkpoint| SavedRun {
+            let checkpoint = plant.checkpoint().filter(|_| !sensors.is_estimating());
+            run.saved = checkpoint.map(|checkpoint| SavedRun {
                 scene: scene.name.clone(),
                 motion: MotionIdentity::of_robot(scene),
                 scalar: None,
@@ -308,6 +330,7 @@ fn sample(
         energy: [seen.kinetic_energy, seen.potential_energy],
         corner_forces: seen.corner_forces,
         block: seen.block,
+        estimate: None,
     });
     Ok(())
 }
@@ -369,6 +392,32 @@ fn other_motion(difference: &str) -> Failure {
         time_s: 0.0,
         place: format!("the saved run is of another motion: {difference}"),
         advice: "the scene that the run was saved with".into(),
+    }
+}
+
+/// Position, quaternion and body twist of the central body.
+fn central(state: &PlantState) -> [f64; 13] {
+    let numbers = state.positions[..7].iter().chain(&state.velocities[..6]);
+    let mut all = [0.0; 13];
+    all.iter_mut().zip(numbers).for_each(|(to, x)| *to = *x);
+    all
+}
+
+fn estimator_failed(time_s: f64, fault: EstimateFault) -> Failure {
+    Failure {
+        kind: "estimator",
+        time_s,
+        place: format!("the state estimator: {fault}"),
+        advice: "sensors whose errors are smaller, or a start at rest".into(),
+    }
+}
+
+fn not_resumed() -> Failure {
+    Failure {
+        kind: "resume",
+        time_s: 0.0,
+        place: "a run with `sensing.state = \"estimate\"` cannot go on from a saved one".into(),
+        advice: "the whole run from its start".into(),
     }
 }
 

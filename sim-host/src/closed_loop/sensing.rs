@@ -3,9 +3,12 @@
 use super::askew::Askew;
 use super::encoders::Encoders;
 use super::estimate::Estimate;
+use super::estimating::{EstimateTally, Estimating};
 use crate::plant::PlantState;
 use crate::record::EncoderMemory;
-use crate::scene::Sensing;
+use crate::robot::SharedRobot;
+use crate::scene::{Sensing, StateSource};
+use surefoot::estimate::EstimateFault;
 
 /// The sensors of a robot, read once a tick. Ideal ones read the state as it is.
 #[derive(Clone, Debug)]
@@ -15,21 +18,47 @@ pub struct Sensors {
     encoders: Option<Encoders>,
     askew: Option<Askew>,
     estimate: Option<Estimate>,
+    estimating: Option<Box<Estimating>>,
+    /// What the estimator has failed with, once and for all.
+    fault: Option<EstimateFault>,
 }
 
 impl Sensors {
-    /// As a scene has them for joints with these names, for ticks `period_s` apart.
+    /// As a scene has them for joints with these names, for ticks `period_s` apart; of a scene whose state is
+    /// estimated, the encoders alone.
     pub fn new(sensing: &Sensing, period_s: f64, joints: &[String]) -> Self {
+        let [has_encoders, has_errors] = match sensing.state {
+            StateSource::Truth => [false, false],
+            StateSource::Noise => [true, true],
+            StateSource::Estimate => [true, false],
+        };
+        let encoders = || Encoders::new(sensing, period_s, joints);
         Self {
             seen: PlantState::home(joints.len()),
-            encoders: Encoders::new(sensing, period_s, joints),
-            askew: Askew::new(sensing),
-            estimate: sensing.is_noisy().then(|| Estimate::new(sensing, period_s)),
+            encoders: has_encoders.then(encoders).flatten(),
+            askew: has_errors.then(|| Askew::new(sensing)).flatten(),
+            estimate: (has_errors && sensing.is_noisy()).then(|| Estimate::new(sensing, period_s)),
+            estimating: None,
+            fault: None,
         }
     }
 
-    /// What they read at the next tick, where the state is `truth`.
+    /// The same of a robot, with its state estimator where the scene has one.
+    ///
+    /// # Panics
+    /// For a scene that is not checked.
+    pub fn of_robot(sensing: &Sensing, period_s: f64, robot: &SharedRobot) -> Self {
+        let is_estimated = sensing.state == StateSource::Estimate;
+        let estimating = || Box::new(Estimating::new(sensing, period_s, robot));
+        Self {
+            estimating: is_estimated.then(estimating),
+            ..Self::new(sensing, period_s, &robot.columns)
+        }
+    }
+
+    /// What they read at the next tick, where the state is `truth`. After a fault of the estimator, what it read last.
     pub fn read(&mut self, truth: &PlantState) -> &PlantState {
+        let before = self.estimating.as_ref().map(|_| self.seen.clone());
         self.seen.clone_from(truth);
         if let Some(encoders) = &mut self.encoders {
             encoders.read(truth, &mut self.seen);
@@ -41,7 +70,41 @@ impl Sensors {
         if let Some(askew) = &self.askew {
             askew.apply(&mut self.seen);
         }
+        if let (Some(estimating), Some(before)) = (&mut self.estimating, before)
+            && let Err(fault) = estimating.read(truth, &mut self.seen)
+        {
+            self.fault.get_or_insert(fault);
+            self.seen = before;
+        }
         &self.seen
+    }
+
+    /// Whether a state estimator makes of the readings what controllers see.
+    pub fn is_estimating(&self) -> bool {
+        self.estimating.is_some()
+    }
+
+    /// Tells switches of the ground's vertical forces on the feet (N), and the estimator which feet a planner has
+    /// stand (all of them, or those of before, unless said), before a tick. Of no use to others.
+    pub fn see_feet(&mut self, forces: impl Iterator<Item = f64>, planned: Option<&[bool]>) {
+        if let Some(estimating) = &mut self.estimating {
+            estimating.see_feet(forces, planned);
+        }
+    }
+
+    /// What they have read last.
+    pub fn seen(&self) -> &PlantState {
+        &self.seen
+    }
+
+    /// What the estimator has failed with.
+    pub fn fault(&self) -> Option<EstimateFault> {
+        self.fault
+    }
+
+    /// What the estimator has said so far, if there is one.
+    pub fn tally(&self) -> Option<&EstimateTally> {
+        self.estimating.as_ref().map(|estimating| estimating.tally())
     }
 
     /// How many joints they read.

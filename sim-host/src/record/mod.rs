@@ -1,6 +1,7 @@
 //! What a run leaves: samples, events, and their files.
 
 mod csv;
+mod estimate_errors;
 mod event;
 mod foxglove;
 mod identity;
@@ -11,6 +12,7 @@ mod saved;
 mod settling;
 
 pub use self::csv::write_csv;
+pub use estimate_errors::{EstimateErrors, WorstErrors};
 pub use event::{Event, EventKind};
 pub use foxglove::{RecordFailure, write_mcap};
 pub use identity::MotionIdentity;
@@ -53,6 +55,8 @@ pub struct Sample {
     pub corner_forces: Option<PerPoint<[f64; 3]>>,
     /// The thrown block, if there is one.
     pub block: Option<BlockSample>,
+    /// Position, quaternion and body twist of the central body as the state estimator has them, if there is one.
+    pub estimate: Option<[f64; 13]>,
 }
 
 impl Sample {

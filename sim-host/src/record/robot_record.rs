@@ -22,6 +22,12 @@ const BLOCK: [&str; 10] = [
     "block_f_z_n",
 ];
 
+/// Columns of the central body as it is estimated, after the word.
+const ESTIMATE: [&str; 13] = [
+    "x_m", "y_m", "z_m", "q_s", "q_x", "q_y", "q_z", "v_x_mps", "v_y_mps", "v_z_mps", "w_x_radps",
+    "w_y_radps", "w_z_radps",
+];
+
 /// What a run of a robot has recorded.
 pub struct RobotRecord<'a> {
     shown: Shown,
@@ -46,11 +52,19 @@ impl Record for RobotRecord<'_> {
     }
 
     fn columns(&self) -> Vec<String> {
-        header(&self.robot)
+        let mut names = header(&self.robot);
+        // Only of runs that have it.
+        if self.samples.iter().any(|sample| sample.estimate.is_some()) {
+            names.extend(ESTIMATE.iter().map(|name| format!("estimate_{name}")));
+        }
+        names
     }
 
     fn row(&self, sample: usize) -> Vec<String> {
-        row(&self.robot, &self.samples[sample])
+        let sample = &self.samples[sample];
+        let mut fields = row(&self.robot, sample);
+        fields.extend(sample.estimate.iter().flatten().map(f64::to_string));
+        fields
     }
 
     fn moment(&self, sample: usize) -> Result<Moment, DynamicsFault> {
@@ -223,6 +237,7 @@ mod tests {
             energy: [8.0; 2],
             corner_forces: Some(vec![vec![[9.0, 10.0, 11.0]; 4]; 2]),
             block: Some(BlockSample { pose: [12.0; 7], force: [13.0; 3] }),
+            estimate: Some([14.0; 13]),
         };
         let robot = biped(Outline::A);
         let shown = Shown::of(&load("experiment-1").expect("a built-in scene"));
@@ -242,6 +257,7 @@ mod tests {
         assert_eq!(lines[1][column("right_toe_plus_y_f_z_n")], "11");
         assert_eq!(lines[1][column("block_q_z")], "12");
         assert_eq!(lines[1][column("block_f_x_n")], "13");
+        assert_eq!(lines[1][column("estimate_w_z_radps")], "14");
         sample.contacts = None;
         sample.corner_forces = None;
         sample.block = None;

@@ -1,7 +1,8 @@
 //! What a scene's sensors, motors and joints must fulfil.
 
 use super::check::wrong;
-use super::{JointStops, Scene, SceneError};
+use super::{JointStops, Scene, SceneError, Sensing, StateSource};
+use crate::robot::Contacts;
 
 /// Longest delay, s. A robot falls over within it.
 const LONGEST_DELAY: f64 = 1.0;
@@ -12,6 +13,11 @@ const FEWEST_COUNTS: u32 = 16;
 /// Most that a sensor is turned or off, degrees; and a gyroscope, rad/s.
 const MOST_ASKEW_DEG: f64 = 45.0;
 const MOST_BIAS: f64 = 10.0;
+/// Most that an accelerometer is off, m/s²: half of gravity.
+const MOST_ACCELEROMETER_BIAS: f64 = 5.0;
+/// Ticks a second that an estimator is made for.
+const LEAST_ESTIMATOR_HZ: f64 = 20.0;
+const MOST_ESTIMATOR_HZ: f64 = 1e5;
 /// Longest lag of a motor, s.
 const LONGEST_LAG: f64 = 10.0;
 
@@ -59,12 +65,45 @@ fn sensing(scene: &Scene) -> Result<(), SceneError> {
         let expected = format!("rates of at most {MOST_BIAS} rad/s either way");
         return Err(wrong(scene, "sensing.gyroscope_bias", sensing.gyroscope_bias, expected));
     }
+    if !sensing.accelerometer_bias.iter().all(|bias| bias.abs() <= MOST_ACCELEROMETER_BIAS) {
+        let expected = format!("at most {MOST_ACCELEROMETER_BIAS} m/s² either way");
+        let field = "sensing.accelerometer_bias";
+        return Err(wrong(scene, field, sensing.accelerometer_bias, expected));
+    }
+    estimated(scene)?;
     let correction = sensing.correction_s;
     if !(correction.is_finite() && correction > 0.0) {
         let expected = "a finite time above zero, in seconds";
         return Err(wrong(scene, "sensing.correction_s", correction, expected));
     }
     Ok(())
+}
+
+/// What goes with an estimated state, and what does not.
+fn estimated(scene: &Scene) -> Result<(), SceneError> {
+    let sensing = &scene.sensing;
+    if sensing.state != StateSource::Estimate {
+        if sensing.accelerometer_bias != [0.0; 3] {
+            let expected = "\"estimate\", as `accelerometer_bias` is given";
+            return Err(wrong(scene, "sensing.state", sensing.state, expected));
+        }
+        return Ok(());
+    }
+    if sensing.correction_s != Sensing::default().correction_s {
+        let expected = "none, as the state is estimated";
+        return Err(wrong(scene, "sensing.correction_s", sensing.correction_s, expected));
+    }
+    let rate = scene.controller.rate_hz;
+    if !(LEAST_ESTIMATOR_HZ..=MOST_ESTIMATOR_HZ).contains(&rate) {
+        let expected = format!(
+            "{LEAST_ESTIMATOR_HZ} to {MOST_ESTIMATOR_HZ} ticks a second, as the state is estimated"
+        );
+        return Err(wrong(scene, "controller.rate_hz", rate, expected));
+    }
+    Contacts::of(&scene.robot()).map(|_| ()).map_err(|error| {
+        let expected = format!("\"truth\" or \"noise\": {error}");
+        wrong(scene, "sensing.state", sensing.state, expected)
+    })
 }
 
 fn acting(scene: &Scene) -> Result<(), SceneError> {

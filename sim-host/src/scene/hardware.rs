@@ -5,10 +5,26 @@ use crate::robot::Robot;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
+/// What state reaches the controller.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StateSource {
+    /// The true one, whatever else is said of sensors.
+    Truth,
+    /// The true one with the errors of a filter that draws an inertial sensor back to what legs and gravity tell; none
+    /// where none are said.
+    #[default]
+    Noise,
+    /// What the state estimator makes of inertial sensor, encoders and foot switches.
+    Estimate,
+}
+
 /// Sensors. They are ideal unless said.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sensing {
+    /// What state reaches the controller.
+    pub state: StateSource,
     /// Counts of a joint's encoder a turn; 0 for one that reads exactly. Rates are then differences of
     /// counts over a tick.
     pub encoder_counts: u32,
@@ -34,11 +50,15 @@ pub struct Sensing {
     /// What the gyroscope reads too much, its own axes, rad/s. The state estimate's orientation is off by this times
     /// `correction_s`.
     pub gyroscope_bias: [f64; 3],
+    /// What the accelerometer reads too much, its own axes, m/s². Only of a state that is estimated: its tilt is off by
+    /// this over gravity.
+    pub accelerometer_bias: [f64; 3],
 }
 
 impl Default for Sensing {
     fn default() -> Self {
         Self {
+            state: StateSource::default(),
             encoder_counts: 0,
             gyroscope_noise: 0.0,
             accelerometer_noise: 0.0,
@@ -48,14 +68,16 @@ impl Default for Sensing {
             backlash_deg: 0.0,
             imu_tilt_deg: [0.0; 3],
             gyroscope_bias: [0.0; 3],
+            accelerometer_bias: [0.0; 3],
         }
     }
 }
 
 impl Sensing {
-    /// Whether the state is measured as it is.
+    /// Whether the state is measured as it is, unless the table says just that.
     pub fn is_ideal(&self) -> bool {
-        self.encoder_counts == 0
+        self.state == StateSource::Noise
+            && self.encoder_counts == 0
             && self.encoder_bias_deg.is_empty()
             && self.backlash_deg == 0.0
             && !self.is_askew()

@@ -23,7 +23,7 @@ mod warnings;
 pub use builtin::{BUILT_IN, BuiltIn, built_in};
 pub use differences::{BodyTable, JointTable, PlantTable};
 pub use disturbance::{Block, Push, StruckBox};
-pub use hardware::{Acting, JointStops, Sensing};
+pub use hardware::{Acting, JointStops, Sensing, StateSource};
 pub use load::{AnyScene, SceneError, load, nearest_built_in, open, parse};
 pub use mechanism::{Flight, Link, MOST_LINKS, Mechanism, MechanismScene, MotionMatters};
 pub use multibody::{

@@ -11,14 +11,15 @@ use std::fmt::Write;
 const PACKAGE: &str = "surefoot-panic-free";
 
 /// Images that must not be able to panic: the tick, the one within limits, the one of any robot, the observer,
-/// quadratic programs, and the rest of core.
-const CLAIMS: [&str; 6] = [
+/// quadratic programs, the state estimator, and the rest of core.
+const CLAIMS: [&str; 7] = [
     "panic-free-tick",
     "panic-free-limited",
     "panic-free-whole-body",
     "panic-free-observer",
     "panic-free-qp",
     "panic-free-dynamics",
+    "panic-free-estimate",
 ];
 
 /// An image that can panic on purpose; a check that finds nothing in it is broken.

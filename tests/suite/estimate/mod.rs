@@ -1,0 +1,7 @@
+//! The state estimator.
+
+mod hostile;
+mod motion;
+mod oracle;
+mod precision;
+mod symmetry;
