@@ -104,6 +104,11 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> DisturbanceObser
         })
     }
 
+    /// Whether it has been long enough since the first tick for a wrench from outside to be read.
+    pub fn has_settled(&self) -> bool {
+        self.since >= self.settings.settle
+    }
+
     /// After the state at this tick and the torques (by velocity, N·m or N) sent from the last one to this;
     /// `standing` says which feet the ground holds. `None` at the first tick.
     ///

@@ -82,6 +82,12 @@ pub trait Controller {
         let _ = rows;
     }
 
+    /// Sum of the ground's forces on the feet as its observer of disturbances reads them, in the central body's axes,
+    /// N: of a robot that stands on all of them, after the last tick.
+    fn support(&self) -> Option<[f64; 3]> {
+        None
+    }
+
     /// What its observer of disturbances remembers of earlier ticks; nothing where it has none.
     fn observed(&self) -> Vec<f64> {
         Vec::new()
@@ -372,6 +378,10 @@ impl<T: Real, const LEGS: usize> Controller for HostController<T, LEGS> {
         if let Some(limiting) = &mut self.limiting {
             limiting.resume(rows);
         }
+    }
+
+    fn support(&self) -> Option<[f64; 3]> {
+        self.observer.as_ref()?.support()
     }
 
     fn observed(&self) -> Vec<f64> {

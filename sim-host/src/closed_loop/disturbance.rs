@@ -33,8 +33,8 @@ pub(super) trait Observe<T> {
     /// The set point, moved so that the robot stands over its feet.
     fn reference(&self, wanted: &Reference<T>) -> Reference<T>;
 
-    /// Sum of the forces on the feet in the central body's axes, N, while all of them stand.
-    fn support(&self) -> Option<Vector3<T>>;
+    /// Sum of the ground's forces on the feet in the central body's axes, N, while all of them stand and have settled.
+    fn support(&self) -> Option<[f64; 3]>;
 
     /// All that it remembers.
     fn memory(&self) -> Vec<f64>;
@@ -105,7 +105,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Observe<T>
         let Self { tree, model, observer, contacts, torques, .. } = self;
         let seen = observer.update(tree, model, &state, torques, contacts);
         self.state = seen.is_ok().then_some(state);
-        let stands = contacts.iter().all(|touches| *touches);
+        let stands = contacts.iter().all(|touches| *touches) && observer.has_settled();
         self.support = seen.ok().flatten().filter(|_| stands).map(|seen| seen.support);
     }
 
@@ -130,8 +130,8 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Observe<T>
         Reference { position, ..*wanted }
     }
 
-    fn support(&self) -> Option<Vector3<T>> {
-        self.support
+    fn support(&self) -> Option<[f64; 3]> {
+        self.support.map(|force| force.map(Real::to_f64).into())
     }
 
     fn memory(&self) -> Vec<f64> {

@@ -52,6 +52,8 @@ pub(super) struct Estimating {
     share: f64,
     pressed: [bool; FEET],
     planned: [bool; FEET],
+    /// On all feet, body axes, N.
+    support: Option<Vector3<f64>>,
     ticks: u64,
     tally: EstimateTally,
 }
@@ -79,6 +81,7 @@ impl Estimating {
             share: -(-std::f64::consts::TAU * RATE_POLE_HZ * period_s).exp_m1(),
             pressed: [false; FEET],
             planned: [true; FEET],
+            support: None,
             ticks: 0,
             tally: EstimateTally::default(),
             robot: robot.clone(),
@@ -94,6 +97,11 @@ impl Estimating {
         for (to, is_planned) in self.planned.iter_mut().zip(planned.into_iter().flatten()) {
             *to = *is_planned;
         }
+    }
+
+    /// The sum of the ground's forces on the feet of a robot at rest, body axes, N; `None` where nobody knows.
+    pub fn feel(&mut self, support: Option<[f64; 3]>) {
+        self.support = support.map(Vector3::from);
     }
 
     /// So far.
@@ -119,7 +127,7 @@ impl Estimating {
             is_pressed: self.pressed[foot],
             is_planned: self.planned[foot],
         });
-        let readings = Readings { imu, feet, feet_force: None };
+        let readings = Readings { imu, feet, feet_force: self.support };
         let mut state = match self.state {
             Some(state) => state,
             None => EstimatorState::start(&self.settings, &readings, &self.start_pose(truth))?,
@@ -168,7 +176,8 @@ impl Estimating {
         let all = self.feet_at(&truth.positions);
         let standing = self.pressed.iter().zip(&self.planned).map(|(a, b)| *a && *b);
         let standing: Vec<bool> = standing.collect();
-        let own = || self.feet.iter().zip(&all).zip(&standing).filter(|((foot, _), _)| foot.is_some());
+        let own =
+            || self.feet.iter().zip(&all).zip(&standing).filter(|((foot, _), _)| foot.is_some());
         let is_standing = own().any(|(_, stands)| *stands);
         let chosen = own().filter(|(_, stands)| !is_standing || **stands);
         let points: Vec<Vector3<f64>> = chosen.map(|((_, pose), _)| pose.position).collect();

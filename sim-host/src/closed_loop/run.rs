@@ -236,6 +236,7 @@ fn advance(
             let seen = plant.observe().map_err(|failure| step_failure(time, failure))?;
             let held = matches!(scene.feet, Feet::Welded {}).then_some(f64::INFINITY);
             sensors.see_feet(seen.foot_forces.iter().map(|force| held.unwrap_or(*force)), None);
+            sensors.feel(controller.support());
         }
         let measured = sensors.read(&state);
         let command = command(measured, controller, touched, time)?;

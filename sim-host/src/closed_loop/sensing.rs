@@ -92,6 +92,13 @@ impl Sensors {
         }
     }
 
+    /// Tells the estimator of the sum of the ground's forces on the feet of a robot at rest, central body's axes, N.
+    pub fn feel(&mut self, support: Option<[f64; 3]>) {
+        if let Some(estimating) = &mut self.estimating {
+            estimating.feel(support);
+        }
+    }
+
     /// What they have read last.
     pub fn seen(&self) -> &PlantState {
         &self.seen

@@ -65,6 +65,10 @@ impl<T: Real, const LEGS: usize> Controller for SupervisedController<T, LEGS> {
         self.inner.resume_limits(rows);
     }
 
+    fn support(&self) -> Option<[f64; 3]> {
+        self.inner.support()
+    }
+
     fn observed(&self) -> Vec<f64> {
         self.inner.observed()
     }

@@ -223,6 +223,10 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Controller
         self.memory = WholeBodyMemory::of(rows);
     }
 
+    fn support(&self) -> Option<[f64; 3]> {
+        self.observer.as_ref()?.support()
+    }
+
     fn observed(&self) -> Vec<f64> {
         self.observer.as_ref().map_or_else(Vec::new, |observer| observer.memory())
     }
@@ -309,6 +313,10 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
 
     fn resume_limits(&mut self, rows: &[(u8, f64)]) {
         self.inner.resume_limits(rows);
+    }
+
+    fn support(&self) -> Option<[f64; 3]> {
+        self.inner.support()
     }
 
     fn observed(&self) -> Vec<f64> {

@@ -24,8 +24,19 @@ const BLOCK: [&str; 10] = [
 
 /// Columns of the central body as it is estimated, after the word.
 const ESTIMATE: [&str; 13] = [
-    "x_m", "y_m", "z_m", "q_s", "q_x", "q_y", "q_z", "v_x_mps", "v_y_mps", "v_z_mps", "w_x_radps",
-    "w_y_radps", "w_z_radps",
+    "x_m",
+    "y_m",
+    "z_m",
+    "q_s",
+    "q_x",
+    "q_y",
+    "q_z",
+    "v_x_mps",
+    "v_y_mps",
+    "v_z_mps",
+    "w_x_radps",
+    "w_y_radps",
+    "w_z_radps",
 ];
 
 /// What a run of a robot has recorded.

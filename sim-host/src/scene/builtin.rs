@@ -12,7 +12,7 @@ pub struct BuiltIn {
 }
 
 /// All built-in scenes.
-pub const BUILT_IN: [BuiltIn; 14] = [
+pub const BUILT_IN: [BuiltIn; 15] = [
     BuiltIn { name: "experiment-1", text: include_str!("../../scenes/experiment-1.toml") },
     BuiltIn {
         name: "experiment-1-pushes",
@@ -28,6 +28,7 @@ pub const BUILT_IN: [BuiltIn; 14] = [
         text: include_str!("../../scenes/experiment-2-welded.toml"),
     },
     BuiltIn { name: "stand", text: include_str!("../../scenes/stand.toml") },
+    BuiltIn { name: "stand-loaded", text: include_str!("../../scenes/stand-loaded.toml") },
     BuiltIn { name: "box-drop", text: include_str!("../../scenes/box-drop.toml") },
     BuiltIn { name: "biped-flight", text: include_str!("../../scenes/biped-flight.toml") },
     BuiltIn { name: "chain", text: include_str!("../../scenes/chain.toml") },
