@@ -5,7 +5,7 @@ use crate::random_trees::symmetric;
 use nalgebra::Vector3;
 use rand::RngExt;
 use rand_pcg::Pcg64;
-use surefoot::balance::{ContactLimits, ContactPatch, WholeBodyFoot};
+use surefoot::balance::{ContactLimits, ContactPatch, WholeBodyFoot, WholeBodyState};
 use surefoot::model::{Link, Tree};
 use surefoot::spatial::Quaternion;
 
@@ -27,6 +27,37 @@ pub type Five = Legged<11, 17, 16>;
 /// Two legs of seven joints (one prismatic) on soles below a waist that they share; two arms of two joints
 /// above.
 pub type Seven = Legged<20, 26, 25>;
+
+/// Feet in single precision.
+pub fn feet_f32(feet: &[Option<WholeBodyFoot<f64>>; 4]) -> [Option<WholeBodyFoot<f32>>; 4] {
+    feet.map(|foot| {
+        foot.map(|foot| WholeBodyFoot {
+            body: foot.body,
+            reference: foot.reference.map(|x| x as f32),
+            axes: Quaternion::from_array(foot.axes.to_array().map(|x| x as f32)),
+            limits: foot.limits.to_f32(),
+        })
+    })
+}
+
+/// Near the stance of a robot, level or not, moving or not.
+pub fn near_stance<const N: usize, const NQ: usize, const NV: usize>(
+    rng: &mut Pcg64,
+    robot: &Legged<N, NQ, NV>,
+    share: f64,
+) -> WholeBodyState<f64, NQ, NV> {
+    let mut positions = [0.0; NQ];
+    let [x, y, z, a, b, c]: [f64; 6] = symmetric(rng);
+    positions[..3].copy_from_slice(&[x, y, z]);
+    let turned = Quaternion::from_rotation_vector(Vector3::new(a, b, c) * (0.5 * share));
+    positions[3..7].copy_from_slice(&turned.to_array());
+    for (to, at) in positions[7..].iter_mut().zip(&robot.stance[6..]) {
+        let [off] = symmetric(rng);
+        *to = *at + 0.15 * share * off;
+    }
+    let velocities = symmetric::<NV>(rng).map(|x| share * x);
+    WholeBodyState { positions, velocities }
+}
 
 /// Limits of a foot on such a patch, N.
 pub fn limits(patch: ContactPatch<f64>, weight: f64) -> ContactLimits<f64, 0> {

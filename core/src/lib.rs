@@ -15,6 +15,7 @@
 //! - [`balance`]: the recursive workspace controller (Alg. 4.1 to 4.6) as one
 //!   [`tick`](balance::tick), from measured state to joint torques or a typed fault.
 //! - [`walk`]: steps in closed form, and what they ask of the controller of whole bodies.
+//! - [`disturbance`]: what the equations of motion tell that the model does not know.
 //!
 //! # Flow
 //! A result is a small struct which the next function demands by reference:
@@ -35,6 +36,7 @@
 #![forbid(unsafe_code)]
 
 pub mod balance;
+pub mod disturbance;
 pub mod dynamics;
 pub mod estimate;
 pub mod model;

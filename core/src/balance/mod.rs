@@ -49,7 +49,7 @@ pub use leg_jacobian::LegJacobian;
 pub use leg_kinematics::{CentralBody, LegKinematics, central_body, leg_kinematics};
 pub use limited::{
     BindingRows, BrokenLimit, Ground, LimitMemory, LimitReport, LimitSet, LimitedCommand,
-    WrenchLimits, WrenchLimitsFault, limited_tick,
+    WrenchLimits, WrenchLimitsFault, limited_tick, limited_tick_under,
 };
 pub use robot::{LeggedRobot, LeggedRobotFault};
 pub use state::{Reference, RobotState};
@@ -62,7 +62,8 @@ pub use whole_body::{
     FootTask, LinearTask, MOST_JOINTS, MOST_LEG_JOINTS, MotionTask, MotionWeights, ObservedBody,
     ObservedFoot, ObservedMotion, WholeBody, WholeBodyCommand, WholeBodyController, WholeBodyFoot,
     WholeBodyLimit, WholeBodyMemory, WholeBodyReport, WholeBodyRobotFault, WholeBodySettings,
-    WholeBodyState, observe, whole_body_motion_tick, whole_body_tick,
+    WholeBodyState, observe, whole_body_motion_tick, whole_body_tick, whole_body_tick_under,
 };
+pub(crate) use whole_body::{JointLine, Leg, edge_axes, joint_line};
 pub use workspace_dynamics::{WorkspaceDynamics, big_base, fixed_foot_dynamics, fixed_foot_wrench};
 pub use wrench_distribution::{FootWrenches, wrench_distribution};

@@ -1,7 +1,9 @@
 //! What `run` says: as text for people, as JSON for programs.
 
 use super::controller::Place;
-use crate::closed_loop::{Costs, CutTorques, Gait, Outcome, Peaks, Run, Scalar, WorstLimit};
+use crate::closed_loop::{
+    Costs, CutTorques, Gait, Outcome, Peaks, Run, Scalar, WorstLimit, rest_error,
+};
 use crate::experiments::{printed_figures, reading};
 use crate::record::{Sample, WorstErrors};
 use crate::scene::{Scene, TorquesFrom};
@@ -228,6 +230,7 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
     let Report { scene, scalar, controller, run, other, reason, warnings } = report;
     let (robot, peaks) = (scene.robot(), Peaks::of(&run.samples));
     let last = run.samples.last();
+    let rest = last.and_then(|last| rest_error(scene, last));
     let largest = peaks.as_ref().and_then(|peaks| peaks.largest_joint(&robot));
     let peak_torque = largest
         .map(|(joint, peak)| json!({ "value": peak.value, "joint": joint, "time_s": peak.time_s }));
@@ -289,6 +292,8 @@ pub fn json(report: &Report<'_>, files: &[PathBuf]) -> Value {
         "final": {
             "position_error_m": last.map(Sample::error_distance),
             "orientation_error_rad": last.map(Sample::error_angle),
+            "com_error_m": rest.map(|rest| rest.center_of_mass[0].hypot(rest.center_of_mass[1])),
+            "tilt_error_rad": rest.map(|rest| rest.tilt),
         },
         "events": run.events,
         "printed": printed_figures(&scene.name, run),

@@ -1,6 +1,7 @@
 //! Controllers on the host.
 
 use super::approximate::{ApproximateController, Approximation};
+use super::disturbance::{Observe, observer};
 use super::firmware::LinkError;
 use super::gait::GaitTally;
 use super::limiting::{LimitTally, Limiting};
@@ -9,7 +10,7 @@ use super::walking::WalkingHost;
 use super::whole_body::{SupervisedWholeBody, WholeBodyHost};
 use crate::plant::PlantState;
 use crate::record::SupervisorMemory;
-use crate::robot::{SharedRobot, by_leg, with_tree};
+use crate::robot::{LEG, SharedRobot, by_leg, with_tree};
 use crate::scene::{Scene, Workspace};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -93,6 +94,22 @@ pub trait Controller {
         let _ = rows;
     }
 
+    /// Sum of the ground's forces on the feet as its observer of disturbances reads them, in the central body's axes,
+    /// N: of a robot that stands on all of them, after the last tick.
+    fn support(&self) -> Option<[f64; 3]> {
+        None
+    }
+
+    /// What its observer of disturbances remembers of earlier ticks; nothing where it has none.
+    fn observed(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Goes on with that; `false` if it is of another observer.
+    fn resume_observed(&mut self, memory: &[f64]) -> bool {
+        memory.is_empty()
+    }
+
     /// What its ticks have cost so far, if it runs on a target that counts.
     fn costs(&self) -> Option<Costs> {
         None
@@ -154,6 +171,7 @@ pub struct HostController<T, const LEGS: usize> {
     form: WorkspaceForm<T>,
     pub(super) reference: Reference<T>,
     limiting: Option<Limiting<T, LEGS>>,
+    observer: Option<Box<dyn Observe<T>>>,
 }
 
 /// The controller of a scene, under its supervisor: what runs on the target.
@@ -166,13 +184,15 @@ pub fn controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
         let (model, limits) = (legged::<_, _, _, LEGS>(tree), limits::<LEGS>(&robot));
         match scalar {
             Scalar::F32 => Box::new(SupervisedController::new(
-                HostController::new(model.to_f32(), scene),
+                HostController::new(model.to_f32(), scene).under(observer(tree.to_f32(), scene)),
                 limits.to_f32(),
                 scene,
             )),
-            Scalar::F64 => {
-                Box::new(SupervisedController::new(HostController::new(model, scene), limits, scene))
-            }
+            Scalar::F64 => Box::new(SupervisedController::new(
+                HostController::new(model, scene).under(observer(*tree, scene)),
+                limits,
+                scene,
+            )),
         }
     }, tree, ROWS => {
         let limits = robot.limits.in_rows::<ROWS>().expect("a robot has limits for its joints");
@@ -198,8 +218,12 @@ pub fn bare_controller(scene: &Scene, scalar: Scalar) -> Box<dyn Controller> {
     with_tree!(&robot.tree, tree, LEGS => {
         let model = legged::<_, _, _, LEGS>(tree);
         match scalar {
-            Scalar::F32 => Box::new(HostController::new(model.to_f32(), scene)),
-            Scalar::F64 => Box::new(HostController::new(model, scene)),
+            Scalar::F32 => Box::new(
+                HostController::new(model.to_f32(), scene).under(observer(tree.to_f32(), scene)),
+            ),
+            Scalar::F64 => {
+                Box::new(HostController::new(model, scene).under(observer(*tree, scene)))
+            }
         }
     }, tree, _ROWS => match scalar {
         Scalar::F32 => Box::new(WholeBodyHost::new(tree.to_f32(), scene)),
@@ -279,6 +303,7 @@ impl<T: Real, const LEGS: usize> HostController<T, LEGS> {
         Self {
             robot,
             limiting,
+            observer: None,
             gains: Gains {
                 position: diagonal(settings.position_gain),
                 velocity: diagonal(settings.velocity_gain),
@@ -296,6 +321,30 @@ impl<T: Real, const LEGS: usize> HostController<T, LEGS> {
         }
     }
 
+    /// With an observer of disturbances.
+    fn under(self, observer: Option<Box<dyn Observe<T>>>) -> Self {
+        Self { observer, ..self }
+    }
+
+    /// Another tick's state, as the observer takes it.
+    pub(super) fn look(&mut self, state: &PlantState) {
+        if let Some(observer) = &mut self.observer {
+            observer.look(state);
+        }
+    }
+
+    /// The torques that are sent.
+    pub(super) fn sent(&mut self, torques: &[[T; LEG]; LEGS]) {
+        if let Some(observer) = &mut self.observer {
+            observer.sent(torques.as_flattened());
+        }
+    }
+
+    /// Where the robot is held.
+    pub(super) fn reference(&self) -> Reference<T> {
+        self.observer.as_ref().map_or(self.reference, |own| own.reference(&self.reference))
+    }
+
     /// As the core takes it.
     pub(super) fn core(&self) -> balance::Controller<'_, T, LEGS> {
         core(&self.robot, self.gains, self.form)
@@ -307,9 +356,11 @@ impl<T: Real, const LEGS: usize> HostController<T, LEGS> {
         state: &RobotState<T, LEGS>,
     ) -> Result<balance::Command<T, LEGS>, Fault> {
         let controller = core(&self.robot, self.gains, self.form);
+        let reference = self.reference();
+        let external = self.observer.as_ref().map(|observer| observer.wrench());
         match &mut self.limiting {
-            None => tick(&controller, state, &self.reference),
-            Some(limiting) => limiting.tick(&controller, state, &self.reference),
+            None => tick(&controller, state, &reference),
+            Some(limiting) => limiting.tick(&controller, state, &reference, external),
         }
     }
 }
@@ -343,11 +394,16 @@ pub fn measured<T: Real, const LEGS: usize>(state: &PlantState) -> RobotState<T,
 
 impl<T: Real, const LEGS: usize> Controller for HostController<T, LEGS> {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
+        self.look(state);
         let command = self.command(&measured(state)).map_err(ControlFailure::Fault)?;
+        self.sent(&command.joint_torques);
         Ok(commanded(command.joint_torques, command.desired_wrench))
     }
 
     fn touch(&mut self, time_s: f64, feet: &[bool]) {
+        if let Some(observer) = &mut self.observer {
+            observer.touch(feet);
+        }
         if let Some(limiting) = &mut self.limiting {
             limiting.touch(time_s, feet);
         }
@@ -365,6 +421,18 @@ impl<T: Real, const LEGS: usize> Controller for HostController<T, LEGS> {
         if let Some(limiting) = &mut self.limiting {
             limiting.resume(rows);
         }
+    }
+
+    fn support(&self) -> Option<[f64; 3]> {
+        self.observer.as_ref()?.support()
+    }
+
+    fn observed(&self) -> Vec<f64> {
+        self.observer.as_ref().map_or_else(Vec::new, |observer| observer.memory())
+    }
+
+    fn resume_observed(&mut self, memory: &[f64]) -> bool {
+        memory.is_empty() || self.observer.as_mut().is_some_and(|own| own.resume(memory))
     }
 }
 

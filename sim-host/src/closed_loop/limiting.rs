@@ -7,8 +7,9 @@ use serde::Serialize;
 use surefoot::Real;
 use surefoot::balance::{
     self, Command, ContactLimit, Fault, Ground, LeggedRobot, LimitMemory, Reference, RobotState,
-    Sole, WrenchLimits, limited_tick,
+    Sole, WrenchLimits, limited_tick_under,
 };
+use surefoot::spatial::Wrench;
 use surefoot_link::TickLimits;
 
 /// Shares of friction and of the soles' lengths that the controller counts on.
@@ -169,15 +170,17 @@ impl<T: Real, const LEGS: usize> Limiting<T, LEGS> {
         }
     }
 
-    /// One tick.
+    /// One tick, under a wrench from outside if one is known.
     pub fn tick(
         &mut self,
         controller: &balance::Controller<'_, T, LEGS>,
         state: &RobotState<T, LEGS>,
         reference: &Reference<T>,
+        external: Option<Wrench<T>>,
     ) -> Result<Command<T, LEGS>, Fault> {
         let Self { limits, memory, contacts, .. } = self;
-        let answer = limited_tick(controller, limits, state, reference, contacts, memory)?;
+        let around = (&*contacts, external);
+        let answer = limited_tick_under(controller, limits, state, reference, around, memory)?;
         self.tally.count_tick(&self.robot, self.time_s, &TickLimits::from(&answer.limits));
         Ok(answer.command)
     }

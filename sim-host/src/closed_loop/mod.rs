@@ -3,8 +3,10 @@
 mod acting;
 mod approximate;
 mod askew;
+mod at_rest;
 mod cause;
 mod controller;
+mod disturbance;
 mod encoders;
 mod errors;
 mod estimate;
@@ -27,13 +29,14 @@ mod whole_body;
 
 pub use acting::{CutTorques, Motors};
 pub use approximate::{ApproximateController, Approximation};
+pub use at_rest::{RestError, rest_error};
 pub use cause::{Cause, Remedy, Runaway, StepTrial, explain};
 pub use controller::{
     Commanded, ControlFailure, Controller, Costs, HostController, Scalar, approximate_controller,
     bare_controller, controller, measured,
 };
-pub use gait::{Gait, GaitTally};
 pub use estimating::{EstimateDoubt, EstimateTally};
+pub use gait::{Gait, GaitTally};
 pub use limiting::{LimitTally, WorstLimit};
 pub use outcome::{Failure, Outcome, Peak, Peaks};
 pub use plant::plant;

@@ -7,8 +7,8 @@ use super::events::Watch;
 use super::memory::{memory, remember};
 use super::plant::plant;
 use super::{
-    Commanded, Controller, Costs, CutTorques, EstimateTally, Failure, Gait, LimitTally, Motors, Outcome,
-    Sensors,
+    Commanded, Controller, Costs, CutTorques, EstimateTally, Failure, Gait, LimitTally, Motors,
+    Outcome, Sensors,
 };
 use crate::contact::ContactState;
 use crate::follow::Follow;
@@ -212,6 +212,9 @@ fn advance(
             controller.remember(memory);
         }
         controller.resume_limits(&saved.limit_rows);
+        if !controller.resume_observed(&saved.observer) {
+            return Err(other_hardware(made as f64 * step));
+        }
         if plant.read_contacts(&mut contacts) {
             watch.begin_with(&contacts);
         }
@@ -226,6 +229,7 @@ fn advance(
         let is_last = tick == ticks || is_interrupted;
         let memory = is_last.then(|| memory(scene, &sensors, &motors)).flatten();
         let supervisor = is_last.then(|| controller.memory()).flatten();
+        let observer = if is_last { controller.observed() } else { Vec::new() };
         // Before its first step a plant knows of no contact.
         if tick > 0 && plant.read_contacts(&mut contacts) {
             feet.clear();
@@ -237,6 +241,7 @@ fn advance(
         if sensors.is_estimating() {
             let held = matches!(scene.feet, Feet::Welded {}).then_some(f64::INFINITY);
             sensors.see_feet(seen.foot_forces.iter().map(|force| held.unwrap_or(*force)), None);
+            sensors.feel(controller.support());
         }
         let measured = sensors.read(&state);
         let command = command(measured, controller, touched, time)?;
@@ -270,6 +275,7 @@ fn advance(
                 hardware: memory,
                 supervisor,
                 limit_rows: controller.limit_rows(),
+                observer,
             });
             break;
         }
@@ -435,7 +441,9 @@ fn other_hardware(time_s: f64) -> Failure {
     Failure {
         kind: "resume",
         time_s,
-        place: "the saved run had other sensors or another delay than this scene".into(),
-        advice: "the tables `sensing` and `acting` that the run was saved with".into(),
+        place: "the saved run had other sensors, another delay or another observer than this scene"
+            .into(),
+        advice: "the tables `sensing`, `acting` and `controller` that the run was saved with"
+            .into(),
     }
 }

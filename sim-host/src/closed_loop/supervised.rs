@@ -40,9 +40,11 @@ impl<T: Real, const LEGS: usize> SupervisedController<T, LEGS> {
 
 impl<T: Real, const LEGS: usize> Controller for SupervisedController<T, LEGS> {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
-        let reference = self.inner.reference;
+        self.inner.look(state);
+        let reference = self.inner.reference();
         let tick = |now: &_| self.inner.command(now);
         let answer = self.supervisor.step_with(Some(&measured(state)), &reference, false, tick);
+        self.inner.sent(&answer.joint_torques);
         let wrench = answer.command.map_or_else(Wrench::zero, |command| command.desired_wrench);
         Ok(commanded(answer.joint_torques, wrench))
     }
@@ -61,6 +63,18 @@ impl<T: Real, const LEGS: usize> Controller for SupervisedController<T, LEGS> {
 
     fn resume_limits(&mut self, rows: &[(u8, f64)]) {
         self.inner.resume_limits(rows);
+    }
+
+    fn support(&self) -> Option<[f64; 3]> {
+        self.inner.support()
+    }
+
+    fn observed(&self) -> Vec<f64> {
+        self.inner.observed()
+    }
+
+    fn resume_observed(&mut self, memory: &[f64]) -> bool {
+        self.inner.resume_observed(memory)
     }
 
     fn stopped(&self) -> Option<StopReason> {

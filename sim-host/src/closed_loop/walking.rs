@@ -3,8 +3,8 @@
 use super::controller::{Commanded, ControlFailure, Controller, measured};
 use super::gait::GaitTally;
 use super::limiting::LimitTally;
-use super::supervised::{recorded, remembered};
 use super::standing::FEET;
+use super::supervised::{recorded, remembered};
 use super::whole_body::{WholeBodyHost, padded};
 use crate::plant::PlantState;
 use crate::record;

@@ -1,6 +1,7 @@
 //! The whole-body controller on the host: of robots whose legs have not six joints each, or that move other limbs.
 
 use super::controller::{Commanded, ControlFailure, Controller, measured};
+use super::disturbance::{Observe, observer};
 use super::limiting::LimitTally;
 use super::standing::{FEET, Standing};
 use super::supervised::{recorded, remembered};
@@ -13,7 +14,7 @@ use surefoot::Real;
 use surefoot::balance::{
     Command, Fault, Gains, Reference, RobotState, SafetyLimits, StopReason, Supervisor, WholeBody,
     WholeBodyCommand, WholeBodyController, WholeBodyMemory, WholeBodyReport, WholeBodySettings,
-    WholeBodyState, whole_body_tick,
+    WholeBodyState, whole_body_tick_under,
 };
 use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, SymmetricMatrix3, Wrench};
@@ -30,6 +31,7 @@ pub(super) struct WholeBodyHost<T, const N: usize, const NQ: usize, const NV: us
     contacts: [bool; FEET],
     pub(super) time_s: f64,
     pub(super) tally: LimitTally,
+    observer: Option<Box<dyn Observe<T>>>,
 }
 
 /// The same with its supervisor, which takes joints in rows of six.
@@ -70,6 +72,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
                 Vector3::from(scene.set_point.position_m.map(T::of)),
                 Quaternion::from_array(scene.set_point.orientation.map(T::of)),
             ),
+            observer: observer(tree, scene),
             robot,
             tree,
             memory: WholeBodyMemory::new(),
@@ -83,9 +86,12 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
         &mut self,
         state: &WholeBodyState<T, NQ, NV>,
     ) -> Result<WholeBodyCommand<T, FEET, NV>, Fault> {
-        let Self { tree, model, settings, reference, memory, contacts, .. } = self;
+        let reference = self.reference();
+        let external = self.observer.as_ref().map(|observer| observer.wrench());
+        let Self { tree, model, settings, memory, contacts, .. } = self;
         let controller = WholeBodyController { tree, robot: model, settings };
-        let command = whole_body_tick(&controller, state, reference, contacts, memory)?;
+        let around = (&*contacts, external);
+        let command = whole_body_tick_under(&controller, state, &reference, around, memory)?;
         self.count(&command.limits);
         Ok(command)
     }
@@ -93,6 +99,25 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
     /// What limits did in a tick.
     pub(super) fn count(&mut self, report: &WholeBodyReport<T, FEET>) {
         self.tally.count_tick(&self.robot, self.time_s, &TickLimits::from(report));
+    }
+
+    /// Another tick's state, as the observer takes it.
+    fn look(&mut self, state: &PlantState) {
+        if let Some(observer) = &mut self.observer {
+            observer.look(state);
+        }
+    }
+
+    /// The torques that are sent.
+    fn sent(&mut self, torques: &[T]) {
+        if let Some(observer) = &mut self.observer {
+            observer.sent(torques);
+        }
+    }
+
+    /// Where the robot is held.
+    fn reference(&self) -> Reference<T> {
+        self.observer.as_ref().map_or(self.reference, |own| own.reference(&self.reference))
     }
 
     /// The torques of the robot's own joints.
@@ -114,16 +139,21 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Controller
     for WholeBodyHost<T, N, NQ, NV>
 {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
+        self.look(state);
         let state = WholeBodyState {
             positions: padded(&state.positions),
             velocities: padded(&state.velocities),
         };
         let command = self.command(&state).map_err(ControlFailure::Fault)?;
+        self.sent(&command.torques[6..]);
         Ok(self.commanded(&command.torques[6..], command.desired_wrench))
     }
 
     fn touch(&mut self, time_s: f64, feet: &[bool]) {
         self.time_s = time_s;
+        if let Some(observer) = &mut self.observer {
+            observer.touch(feet);
+        }
         for (to, touches) in self.contacts.iter_mut().zip(feet) {
             *to = *touches;
         }
@@ -140,6 +170,18 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Controller
     fn resume_limits(&mut self, rows: &[(u8, f64)]) {
         let rows = rows.iter().map(|(row, multiplier)| (*row, T::of(*multiplier)));
         self.memory = WholeBodyMemory::of(rows);
+    }
+
+    fn support(&self) -> Option<[f64; 3]> {
+        self.observer.as_ref()?.support()
+    }
+
+    fn observed(&self) -> Vec<f64> {
+        self.observer.as_ref().map_or_else(Vec::new, |observer| observer.memory())
+    }
+
+    fn resume_observed(&mut self, memory: &[f64]) -> bool {
+        memory.is_empty() || self.observer.as_mut().is_some_and(|own| own.resume(memory))
     }
 }
 
@@ -168,10 +210,11 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
 {
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let Self { inner, supervisor } = self;
+        inner.look(state);
         let mut in_rows = state.clone();
         in_rows.positions.resize(7 + ROWS * LEG, 0.0);
         in_rows.velocities.resize(6 + ROWS * LEG, 0.0);
-        let reference = inner.reference;
+        let reference = inner.reference();
         let tick = |now: &RobotState<T, ROWS>| {
             let command = inner.command(&WholeBodyState::of_rows(now))?;
             let mut joint_torques = [[T::zero(); LEG]; ROWS];
@@ -186,6 +229,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
             })
         };
         let answer = supervisor.step_with(Some(&measured(&in_rows)), &reference, false, tick);
+        self.inner.sent(answer.joint_torques.as_flattened());
         let wrench = answer.command.map_or_else(Wrench::zero, |command| command.desired_wrench);
         Ok(self.inner.commanded(answer.joint_torques.as_flattened(), wrench))
     }
@@ -204,6 +248,18 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
 
     fn resume_limits(&mut self, rows: &[(u8, f64)]) {
         self.inner.resume_limits(rows);
+    }
+
+    fn support(&self) -> Option<[f64; 3]> {
+        self.inner.support()
+    }
+
+    fn observed(&self) -> Vec<f64> {
+        self.inner.observed()
+    }
+
+    fn resume_observed(&mut self, memory: &[f64]) -> bool {
+        self.inner.resume_observed(memory)
     }
 
     fn stopped(&self) -> Option<StopReason> {

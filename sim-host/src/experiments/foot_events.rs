@@ -66,6 +66,8 @@ mod tests {
             saved: None,
             costs: None,
             limits: None,
+            gait: None,
+            estimate: None,
             cut_torques: crate::closed_loop::CutTorques::default(),
             stop: None,
         }

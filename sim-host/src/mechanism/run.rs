@@ -218,6 +218,7 @@ pub fn run_model(
         hardware: None,
         supervisor: None,
         limit_rows: Vec::new(),
+        observer: Vec::new(),
     });
     run.wall = begun.elapsed();
     // The one before last: what fails has begun before it fails.

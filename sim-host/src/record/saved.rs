@@ -34,6 +34,9 @@ pub struct SavedRun {
     /// Limits of ground and motors that bound at the last tick, by row and multiplier.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub limit_rows: Vec<(u8, f64)>,
+    /// What the controller's observer of disturbances remembers; nothing where there is none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub observer: Vec<f64>,
 }
 
 /// All that a motion needs to go on, by the simulator that plays it.

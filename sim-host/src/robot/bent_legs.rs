@@ -8,7 +8,7 @@ use super::{Contacts, Robot};
 use crate::plant::PlantState;
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3, UnitQuaternion, Vector3};
 use surefoot::balance::{ContactPatch, WholeBodyFoot};
-use surefoot::spatial::Quaternion;
+use surefoot::spatial::{Pose, Quaternion};
 
 /// How much shorter legs are than with all joints at 0, in the order in which it is tried: on one or two feet, and on
 /// more, which stand with legs bent far.
@@ -24,11 +24,34 @@ pub(super) fn bent(robot: &Robot) -> Option<Vec<f64>> {
     shorter.into_iter().find_map(|share| stance(robot, &contacts, share))
 }
 
-/// Where a foot's reference point is to be, its sole level.
+/// Where a foot's reference point is to be, and how its sole is turned, in the central body's frame.
 struct Target<'a> {
     foot: &'a WholeBodyFoot<f64>,
     joints: &'a [usize],
     at: Vector3<f64>,
+    axes: Matrix3<f64>,
+}
+
+/// The state in which the central body is at another pose and the feet are where they were; `None` where some leg
+/// does not reach.
+pub(super) fn moved(robot: &Robot, from: &PlantState, to: &Pose<f64>) -> Option<PlantState> {
+    let contacts = Contacts::of(robot).ok()?;
+    let poses = robot.tree.body_poses(&from.positions).ok()?;
+    let mut angles = from.positions[7..].to_vec();
+    for (foot, joints) in contacts.feet.iter().flatten().zip(&contacts.leg_joints) {
+        let pose = poses.get(foot.body)?;
+        let at = to.inverse().transform_point(pose.transform_point(foot.reference));
+        let axes = to.rotation.transpose() * pose.rotation * foot.axes.to_matrix();
+        let seed = joints.iter().map(|joint| angles[*joint]).collect();
+        let found = search(robot, &angles, &Target { foot, joints, at, axes }, seed)?;
+        joints.iter().zip(found).for_each(|(joint, angle)| angles[*joint] = angle);
+    }
+    let mut state = from.clone();
+    let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(to.rotation));
+    state.positions[..3].copy_from_slice(to.position.as_slice());
+    state.positions[3..7].copy_from_slice(&[turn.w, turn.i, turn.j, turn.k]);
+    state.positions[7..].copy_from_slice(&angles);
+    Some(state)
 }
 
 fn stance(robot: &Robot, contacts: &Contacts, share: f64) -> Option<Vec<f64>> {
@@ -41,7 +64,8 @@ fn stance(robot: &Robot, contacts: &Contacts, share: f64) -> Option<Vec<f64>> {
             let hip = joint(robot, &poses, joints.first()? + 1)?.0;
             let mut at = poses.get(foot.body)?.transform_point(foot.reference);
             at.z += share * (hip - at).norm();
-            let target = Target { foot, joints, at: at + shift };
+            let axes = Matrix3::identity();
+            let target = Target { foot, joints, at: at + shift, axes };
             let seeds = match round {
                 0 => seeds(joints.len()),
                 _ => vec![joints.iter().map(|joint| angles[*joint]).collect()],
@@ -92,7 +116,7 @@ fn search(
     target: &Target<'_>,
     mut own: Vec<f64>,
 ) -> Option<Vec<f64>> {
-    let Target { foot, joints, at } = target;
+    let Target { foot, joints, at, axes: wanted } = target;
     let rows = directions(&foot.limits.patch);
     let mut state = PlantState::home(robot.joint_count());
     state.positions[7..].copy_from_slice(angles);
@@ -106,7 +130,7 @@ fn search(
         let pose = poses.get(foot.body)?;
         let point = pose.transform_point(foot.reference);
         let turned: Matrix3<f64> = pose.rotation * axes;
-        let turn = Rotation3::from_matrix_unchecked(turned.transpose());
+        let turn = Rotation3::from_matrix_unchecked(wanted * turned.transpose());
         let turn = UnitQuaternion::from_rotation_matrix(&turn).scaled_axis();
         let way = at - point;
         let all = [way.x, way.y, way.z, turn.x, turn.y, turn.z];

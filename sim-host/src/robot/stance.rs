@@ -1,7 +1,7 @@
 //! How a robot stands: where its feet are, and with which joint angles its legs are bent and its centre of mass is
 //! over its feet.
 
-use super::{Foot, LEG, Robot, bent_legs};
+use super::{Contacts, Foot, LEG, Robot, bent_legs};
 use crate::plant::PlantState;
 use nalgebra::{Matrix6, Rotation3, UnitQuaternion, Vector3, Vector6};
 use surefoot::spatial::{Pose, Quaternion};
@@ -91,6 +91,32 @@ pub(super) fn off_middle(robot: &Robot, state: &PlantState) -> Option<Vector3<f6
     let middle = feet.iter().map(|foot| middle(foot)).sum::<Vector3<f64>>() / feet.len() as f64;
     let off = center - middle;
     Some(Vector3::new(off.x, off.y, 0.0))
+}
+
+/// The state in which the central body is at another pose and the feet are where they were; `None` where some leg
+/// does not reach.
+pub fn moved(robot: &Robot, from: &PlantState, to: &Pose<f64>) -> Option<PlantState> {
+    bent_legs::moved(robot, from, to)
+}
+
+/// From the mean of the feet's reference points to the model's centre of mass, along the floor, m; `None` where the
+/// state is no configuration.
+pub fn center_from_feet(robot: &Robot, state: &PlantState) -> Option<[f64; 2]> {
+    let poses = robot.tree.body_poses(&state.positions).ok()?;
+    let weighted = poses.iter().enumerate().map(|(k, p)| p.position * robot.tree.body_mass(k));
+    let center = weighted.sum::<Vector3<f64>>() / robot.tree.mass();
+    let off = center - feet_middle(robot, &poses)?;
+    Some([off.x, off.y])
+}
+
+/// The mean of the feet's reference points, m.
+pub fn feet_middle(robot: &Robot, poses: &[Pose<f64>]) -> Option<Vector3<f64>> {
+    let contacts = Contacts::of(robot).ok()?;
+    let points = contacts.feet.iter().flatten();
+    let points: Option<Vec<_>> =
+        points.map(|foot| Some(poses.get(foot.body)?.transform_point(foot.reference))).collect();
+    let points = points?;
+    Some(points.iter().sum::<Vector3<f64>>() / points.len() as f64)
 }
 
 /// The middle of the box around points.

@@ -6,7 +6,7 @@ use super::differences::check_plant;
 use super::rung::check_model;
 use super::terrain::check_terrain;
 use super::walk::check_walk;
-use super::{Distribution, Feet, Scene, SceneError, Workspace};
+use super::{Distribution, Disturbance, Feet, Scene, SceneError, Workspace};
 use crate::integrators::Method;
 use nalgebra::Vector3;
 use surefoot::spatial::Quaternion;
@@ -103,6 +103,16 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
     {
         let expected = "a finite factor of 1 or more (printed: 1e6)";
         return Err(wrong(scene, "controller.workspace.big-base", factor, expected));
+    }
+    if controller.disturbance == Disturbance::Observed
+        && controller.distribution != Distribution::Limited
+    {
+        let expected = "\"ignored\", or `distribution = \"limited\"`";
+        return Err(wrong(scene, "controller.disturbance", "observed", expected));
+    }
+    if !(0.0..=1.0).contains(&controller.friction_share) {
+        let expected = "a share of 0 to 1";
+        return Err(wrong(scene, "controller.friction_share", controller.friction_share, expected));
     }
     if controller.distribution == Distribution::Limited && matches!(scene.feet, Feet::Welded {}) {
         let expected = "\"least-norm\" for feet that are held: nothing limits them";

@@ -255,8 +255,35 @@ pub struct ControllerSettings {
     /// How the wanted wrench is given to the feet.
     #[serde(default, skip_serializing_if = "Distribution::is_default")]
     pub distribution: Distribution,
+    /// What is made of wrenches that the model does not know.
+    #[serde(default, skip_serializing_if = "Disturbance::is_default")]
+    pub disturbance: Disturbance,
+    /// The share of the joints' dry friction, as the robot's file states it, that torques make up for.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub friction_share: f64,
     /// When torques set in.
     pub torques_from: TorquesFrom,
+}
+
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
+}
+
+/// What is made of wrenches that the model does not know: loads, a centre of mass that is elsewhere.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Disturbance {
+    /// Nothing.
+    #[default]
+    Ignored,
+    /// They are observed, carried, and the set point is moved so that the robot stands over its feet.
+    Observed,
+}
+
+impl Disturbance {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// How the wanted wrench is given to the feet.

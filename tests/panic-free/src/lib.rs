@@ -15,6 +15,10 @@ use surefoot::balance::{
     WholeBodyMemory, WholeBodySettings, WholeBodyState, WorkspaceForm, WrenchLimits, limited_tick,
     tick, whole_body_tick,
 };
+use surefoot::disturbance::{
+    DisturbanceObserver, DisturbanceSettings, ForceContact, ForceThresholds, friction_compensation,
+    seen_friction,
+};
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
 
@@ -111,6 +115,44 @@ pub fn opaque_whole_body_tick() {
     let contacts = black_box([true; 4]);
     let answer = whole_body_tick(&controller, &state, &wanted, &contacts, &mut memory);
     let _ = black_box((answer, memory));
+}
+
+/// An observer of disturbances, of a robot and a memory of anything, with a check of contacts and joints whose
+/// friction is made up for.
+#[inline(always)]
+pub fn opaque_observer() {
+    let patch = black_box(ContactPatch::sole([-0.2, 0.05], [-0.05, 0.05], -0.06));
+    let limits = ContactLimits {
+        least_force: 5.0,
+        greatest_force: 2000.0,
+        friction: 0.24,
+        patch,
+        torques: [],
+    };
+    let (reference, axes) = (Vector3::zeros(), Quaternion::identity());
+    let foot = |body| Some(WholeBodyFoot { body, reference, axes, limits });
+    let feet = black_box([foot(biped::FEET[0]), foot(biped::FEET[1]), None, None]);
+    let tree = black_box(&TREE);
+    let Ok(robot) = WholeBody::new(tree, &feet) else { return };
+    let settings = DisturbanceSettings::scaled(black_box(75.0), 9.81, 1.0, 2e-3, [0.0; 2]);
+    let Ok(settings) = settings else { return };
+    let Ok(observer) = DisturbanceObserver::new(black_box(settings)) else { return };
+    let mut observer = black_box(observer);
+    let state = black_box(WholeBodyState { positions: [0.1; 19], velocities: [0.1; 18] });
+    let standing = black_box([true; 4]);
+    let thresholds = black_box(ForceThresholds::scaled(735.0));
+    let mut contact = black_box(ForceContact::new());
+    let mut torques = black_box([1.0; 18]);
+    for torque in &mut torques {
+        *torque += friction_compensation(2.0, 0.8, *torque, 0.1) + seen_friction(2.0, 0.8, *torque);
+    }
+    let seen = observer.update(tree, black_box(&robot), &state, &torques, &standing);
+    if let Ok(Some(seen)) = &seen {
+        contact.update(&thresholds, &seen.feet);
+    }
+    let (_, wanted) = crouching();
+    let position = observer.balance.reference(wanted.position, wanted.position);
+    let _ = black_box((seen, observer, contact, position));
 }
 
 /// Ends an image: there is nothing more to do, and nowhere to return to.

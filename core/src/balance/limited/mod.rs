@@ -31,10 +31,11 @@
 mod limits;
 mod loads;
 mod memory;
+mod outside;
 mod report;
 mod tick;
 
 pub use limits::{Ground, WrenchLimits, WrenchLimitsFault};
 pub use memory::{BindingRows, LimitMemory};
 pub use report::{BrokenLimit, LimitReport, LimitSet, LimitedCommand};
-pub use tick::limited_tick;
+pub use tick::{limited_tick, limited_tick_under};

@@ -1,6 +1,7 @@
 //! One tick within limits.
 
 use super::loads::{Loads, loads, loads_at_rest};
+use super::outside::Outside;
 use super::{BrokenLimit, LimitMemory, LimitReport, LimitedCommand, WrenchLimits};
 use crate::Real;
 use crate::balance::ground_wrench::in_axes;
@@ -67,12 +68,43 @@ pub fn limited_tick<T: Real, const LEGS: usize>(
     contacts: &[bool; LEGS],
     memory: &mut LimitMemory<T>,
 ) -> Result<LimitedCommand<T, LEGS>, Fault> {
+    tick_under(controller, limits, state, reference, (contacts, ()), memory)
+}
+
+/// The same for a robot on whose central body a known wrench acts from outside, about its centre of mass in
+/// world axes (N, N·m): the feet are asked for what is left. `None` where nobody knows of one.
+///
+/// # Errors
+/// As of [`limited_tick`]; [`Fault::Overflow`] for a wrench that is not finite.
+#[inline]
+pub fn limited_tick_under<T: Real, const LEGS: usize>(
+    controller: &Controller<'_, T, LEGS>,
+    limits: &WrenchLimits<T, LEGS>,
+    state: &RobotState<T, LEGS>,
+    reference: &Reference<T>,
+    (contacts, external): (&[bool; LEGS], Option<Wrench<T>>),
+    memory: &mut LimitMemory<T>,
+) -> Result<LimitedCommand<T, LEGS>, Fault> {
+    tick_under(controller, limits, state, reference, (contacts, external), memory)
+}
+
+/// Of either, in one piece: without a wrench nothing of it runs.
+#[inline(always)]
+fn tick_under<T: Real, E: Outside<T>, const LEGS: usize>(
+    controller: &Controller<'_, T, LEGS>,
+    limits: &WrenchLimits<T, LEGS>,
+    state: &RobotState<T, LEGS>,
+    reference: &Reference<T>,
+    (contacts, external): (&[bool; LEGS], E),
+    memory: &mut LimitMemory<T>,
+) -> Result<LimitedCommand<T, LEGS>, Fault> {
     check_finite(state, reference)?;
     let central = central_body(controller.robot, state)?;
     let desired = desired_acceleration(&controller.gains, &central, state.position, reference)?;
     let mut legs = [LegKinematics::empty(); LEGS];
     walk_legs::<T, LEGS, true>(controller.robot, &central, state, &mut legs);
-    let robot = Standing { controller, limits, central: &central, legs: &legs, contacts };
+    let external = external.in_frame_1(&central.rotation);
+    let robot = Standing { controller, limits, central: &central, legs: &legs, contacts, external };
     let is_standing = contacts.iter().all(|stands| *stands);
     let was_free = memory.active.is_empty();
     let mut asked =
@@ -114,12 +146,14 @@ pub fn limited_tick<T: Real, const LEGS: usize>(
 }
 
 /// The robot at a tick.
-struct Standing<'a, T, const LEGS: usize> {
+struct Standing<'a, T, E, const LEGS: usize> {
     controller: &'a Controller<'a, T, LEGS>,
     limits: &'a WrenchLimits<T, LEGS>,
     central: &'a CentralBody<T>,
     legs: &'a [LegKinematics<T>; LEGS],
     contacts: &'a [bool; LEGS],
+    /// From outside, frame 1.
+    external: E,
 }
 
 /// The printed split of the desired wrench, and whether it breaks a limit.
@@ -131,7 +165,7 @@ struct Asked<T, const LEGS: usize> {
     is_broken: bool,
 }
 
-impl<T: Real, const LEGS: usize> Standing<'_, T, LEGS> {
+impl<T: Real, E: Outside<T>, const LEGS: usize> Standing<'_, T, E, LEGS> {
     /// As the plain tick asks.
     #[inline(never)]
     fn plain(&self, x: Twist<T>) -> Result<Asked<T, LEGS>, Fault> {
@@ -141,12 +175,13 @@ impl<T: Real, const LEGS: usize> Standing<'_, T, LEGS> {
     /// With what creeps coming to rest.
     #[inline(never)]
     fn at_rest(&self, x: Twist<T>) -> Result<Asked<T, LEGS>, Fault> {
-        let Self { controller, limits, central, legs, contacts } = self;
+        let Self { controller, limits, central, legs, contacts, .. } = self;
         self.split(loads_at_rest(controller, limits, central, legs, contacts, x)?)
     }
 
     #[inline(always)]
-    fn split(&self, loads: Loads<T, LEGS>) -> Result<Asked<T, LEGS>, Fault> {
+    fn split(&self, mut loads: Loads<T, LEGS>) -> Result<Asked<T, LEGS>, Fault> {
+        loads.desired = self.external.less(loads.desired);
         let mut positions = [None; LEGS];
         for ((position, leg), stands) in positions.iter_mut().zip(self.legs).zip(self.contacts) {
             *position = stands.then_some(leg.foot.position);
@@ -205,8 +240,8 @@ impl<T: Real, const LEGS: usize> Standing<'_, T, LEGS> {
 
 /// Brings wrenches that make the desired one within limits, as near to it as can be.
 #[inline(never)]
-fn within<T: Real, const LEGS: usize, const K: usize>(
-    robot: &Standing<'_, T, LEGS>,
+fn within<T: Real, E, const LEGS: usize, const K: usize>(
+    robot: &Standing<'_, T, E, LEGS>,
     loads: &Loads<T, LEGS>,
     wrenches: &mut [Wrench<T>; LEGS],
     active: &mut ActiveRows<T, K>,

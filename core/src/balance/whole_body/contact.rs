@@ -224,7 +224,11 @@ fn pick<T: Real>(directions: &[bool; DIRECTIONS], mut all: [T; DIRECTIONS]) -> [
 /// Axes of an edge along the sole's x (or y) on level ground: that axis as it is, and a normal that is as
 /// upright as it can be; the sole's own where the edge stands on its end.
 #[inline(always)]
-fn edge_axes<T: Real>(central: &Matrix3<T>, sole: &Matrix3<T>, along_x: bool) -> Matrix3<T> {
+pub(crate) fn edge_axes<T: Real>(
+    central: &Matrix3<T>,
+    sole: &Matrix3<T>,
+    along_x: bool,
+) -> Matrix3<T> {
     let up = Vector3::new(central.m31, central.m32, central.m33);
     let edge: Vector3<T> = if along_x { sole.column(0).into() } else { sole.column(1).into() };
     let across = up.cross(&edge);

@@ -1,13 +1,14 @@
 //! What a tick makes of its inputs before the dynamics: checks, the posture's accelerations, joint axes.
 
+use super::joint_line::{JointLine, joint_line};
 use super::robot::WholeBody;
 use super::{WholeBodySettings, WholeBodyState};
 use crate::Real;
 use crate::balance::leg_kinematics::unit;
 use crate::balance::tick::check_reference;
 use crate::balance::{CentralBody, Fault, Input, Reference};
-use crate::dynamics::{BodyKinematics, Kinematics};
-use crate::model::{Axis, JointKind, Tree};
+use crate::dynamics::Kinematics;
+use crate::model::Tree;
 use crate::spatial::{Quaternion, Twist};
 use nalgebra::{Matrix3, Vector3};
 
@@ -51,27 +52,11 @@ pub(super) fn screws<
         else {
             continue;
         };
-        let BodyKinematics { pose, .. } = body;
-        let axes = match &node.body_rotation {
-            None => pose.rotation,
-            Some(r) => pose.rotation * r.transpose(),
-        };
-        let (axis, slides) = match node.kind {
-            JointKind::Revolute(axis) => (axis, false),
-            JointKind::Prismatic(axis) => (axis, true),
-            _ => continue,
-        };
-        let along: Vector3<T> = match axis {
-            Axis::X => axes.column(0).into(),
-            Axis::Y => axes.column(1).into(),
-            Axis::Z => axes.column(2).into(),
-        };
-        let along = central.tr_mul(&if node.is_reversed { -along } else { along });
-        *screw = if slides {
-            Twist { linear: along, angular: Vector3::zeros() }
-        } else {
-            let point = central.tr_mul(&(pose.position - axes * node.center));
-            Twist { linear: point.cross(&along), angular: along }
+        let Some(JointLine { along, point }) = joint_line(node, &body.pose) else { continue };
+        let along = central.tr_mul(&along);
+        *screw = match point {
+            None => Twist { linear: along, angular: Vector3::zeros() },
+            Some(point) => Twist { linear: central.tr_mul(&point).cross(&along), angular: along },
         };
     }
     screws

@@ -32,6 +32,7 @@
 
 mod contact;
 mod fault;
+mod joint_line;
 mod leg_inverse;
 mod measured;
 mod motion;
@@ -44,12 +45,15 @@ mod settings;
 mod task;
 mod tick;
 
+pub(crate) use contact::edge_axes;
 pub use fault::WholeBodyRobotFault;
+pub(crate) use joint_line::{JointLine, joint_line};
 pub use motion::{MotionWeights, whole_body_motion_tick};
 pub use observed::{ObservedBody, observe};
 pub use program::WholeBodyLimit;
 pub use report::{WholeBodyCommand, WholeBodyMemory, WholeBodyReport, WholeBodyState};
+pub(crate) use robot::Leg;
 pub use robot::{MOST_JOINTS, MOST_LEG_JOINTS, WholeBody, WholeBodyFoot};
 pub use settings::WholeBodySettings;
 pub use task::{FootTask, LinearTask, MotionTask, ObservedFoot, ObservedMotion};
-pub use tick::{WholeBodyController, whole_body_tick};
+pub use tick::{WholeBodyController, whole_body_tick, whole_body_tick_under};

@@ -26,9 +26,29 @@ pub struct WholeBodyFoot<T> {
     pub limits: ContactLimits<T, 0>,
 }
 
+impl<T: Real> WholeBodyFoot<T> {
+    /// The same in another precision.
+    pub fn rounded<U: Real>(&self) -> WholeBodyFoot<U> {
+        let round = |x: T| U::of(x.to_f64());
+        let limits = &self.limits;
+        WholeBodyFoot {
+            body: self.body,
+            reference: self.reference.map(round),
+            axes: Quaternion::from_array(self.axes.to_array().map(round)),
+            limits: ContactLimits {
+                least_force: round(limits.least_force),
+                greatest_force: round(limits.greatest_force),
+                friction: round(limits.friction),
+                patch: limits.patch.rounded(),
+                torques: [],
+            },
+        }
+    }
+}
+
 /// A foot with its leg.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Leg<T> {
+pub(crate) struct Leg<T> {
     pub foot: WholeBodyFoot<T>,
     /// Body frame from sole axes.
     pub axes: Matrix3<T>,
@@ -42,7 +62,7 @@ pub(super) struct Leg<T> {
 
 /// A joint that the controller moves.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BodyJoint {
+pub(crate) struct BodyJoint {
     /// Index of its coordinate.
     pub coordinate: usize,
     /// Index of its node.
@@ -60,10 +80,10 @@ pub(super) struct BodyJoint {
 /// another foot hangs too (a waist's); seven joints at most. All other joints track a posture.
 #[derive(Clone, Copy, Debug)]
 pub struct WholeBody<T, const FEET: usize, const NV: usize> {
-    pub(super) legs: [Option<Leg<T>>; FEET],
+    pub(crate) legs: [Option<Leg<T>>; FEET],
     /// By velocity; `None` for the central body's and for those of other trees.
-    pub(super) joints: [Option<BodyJoint>; NV],
-    pub(super) mass: T,
+    pub(crate) joints: [Option<BodyJoint>; NV],
+    pub(crate) mass: T,
 }
 
 impl<T: Real, const FEET: usize, const NV: usize> WholeBody<T, FEET, NV> {

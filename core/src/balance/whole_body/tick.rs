@@ -58,6 +58,40 @@ pub fn whole_body_tick<
     contacts: &[bool; FEET],
     memory: &mut WholeBodyMemory<T>,
 ) -> Result<WholeBodyCommand<T, FEET, NV>, Fault> {
+    tick_under(controller, state, reference, (contacts, None), memory)
+}
+
+/// The same for a robot on whose central body a known wrench acts from outside, about its centre of mass in
+/// world axes (N, N·m); `None` where nobody knows of one.
+///
+/// # Errors
+/// As of [`whole_body_tick`]; [`Fault::Overflow`] for a wrench that is not finite.
+#[inline]
+pub fn whole_body_tick_under<
+    T: Real,
+    const N: usize,
+    const NQ: usize,
+    const NV: usize,
+    const FEET: usize,
+>(
+    controller: &WholeBodyController<'_, T, N, NQ, NV, FEET>,
+    state: &WholeBodyState<T, NQ, NV>,
+    reference: &Reference<T>,
+    (contacts, external): (&[bool; FEET], Option<Wrench<T>>),
+    memory: &mut WholeBodyMemory<T>,
+) -> Result<WholeBodyCommand<T, FEET, NV>, Fault> {
+    tick_under(controller, state, reference, (contacts, external), memory)
+}
+
+/// Of either, in one piece: without a wrench nothing of it runs.
+#[inline(always)]
+fn tick_under<T: Real, const N: usize, const NQ: usize, const NV: usize, const FEET: usize>(
+    controller: &WholeBodyController<'_, T, N, NQ, NV, FEET>,
+    state: &WholeBodyState<T, NQ, NV>,
+    reference: &Reference<T>,
+    (contacts, external): (&[bool; FEET], Option<Wrench<T>>),
+    memory: &mut WholeBodyMemory<T>,
+) -> Result<WholeBodyCommand<T, FEET, NV>, Fault> {
     let WholeBodyController { tree, robot, settings } = controller;
     let central = checked(tree, state, reference)?;
     let position = first3(&state.positions);
@@ -86,7 +120,15 @@ pub fn whole_body_tick<
         *place = Some((contact, leg));
     }
     let legs = pressing.each_ref().map(|foot| foot.as_ref().map(|(contact, _)| *contact));
-    let bias = inverse_dynamics(tree, &poses, &state.velocities, &accelerations, None);
+    let mut bias = inverse_dynamics(tree, &poses, &state.velocities, &accelerations, None);
+    if let Some(external) = external {
+        // Of the ground's wrenches this much is made already.
+        let (force, torque) =
+            (central.rotation.tr_mul(&external.force), central.rotation.tr_mul(&external.torque));
+        for (bias, w) in bias.iter_mut().zip((Wrench { force, torque }).to_array()) {
+            *bias -= w;
+        }
+    }
     let masses = mass_matrix(tree, &poses);
     if !bias.iter().chain(masses.as_flattened()).all(|x| x.is_finite()) {
         return Err(Fault::Overflow);
