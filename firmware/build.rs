@@ -7,14 +7,20 @@ mod described_robot;
 use std::env;
 use std::path::PathBuf;
 
+/// Set where the image is one of a robot that walks.
+const WALKS: &str = "SUREFOOT_WALKS";
+
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     let package = PathBuf::from(env::var("CARGO_MANIFEST_DIR").expect("cargo sets it"));
-    // A robot that the controller for legs of six joints does not balance.
-    println!("cargo::rustc-check-cfg=cfg(whole_body)");
-    if described_robot::leave_module(&package.join("robots/biped.rs"))
-        .contains(described_robot::WHOLE_BODY)
-    {
+    let text = described_robot::leave_module(&package.join("robots/biped.rs"));
+    println!("cargo::rustc-check-cfg=cfg(whole_body, walks)");
+    println!("cargo::rerun-if-env-changed={WALKS}");
+    let walks = env::var_os(WALKS).is_some();
+    if walks {
+        println!("cargo::rustc-cfg=walks");
+    }
+    if walks || !described_robot::is_six_jointed(&text) {
         println!("cargo::rustc-cfg=whole_body");
     }
     if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {

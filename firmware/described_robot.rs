@@ -7,8 +7,10 @@ use std::path::{Path, PathBuf};
 /// The robot.rs of the robot; that of the text unless said.
 const ROBOT: &str = "SUREFOOT_ROBOT";
 
-/// What stands in the robot.rs of a robot that the whole-body controller balances.
-pub const WHOLE_BODY: &str = "pub const NODES: usize";
+/// Whether the controller for legs of six joints takes the robot: its robot.rs says how many legs there are.
+pub fn is_six_jointed(text: &str) -> bool {
+    text.contains("pub const LEGS: usize")
+}
 
 /// Leaves a module that names the robot's file, so that the compiler's messages name it too; tells its text.
 pub fn leave_module(of_the_text: &Path) -> String {

@@ -5,13 +5,13 @@ use crate::control::{Measurement, Order, Posting, Receiving, Record, Sending, jo
 use crate::log::Log;
 use crate::no_init::{self, stack_bytes};
 use crate::robot::{self, FRAME, JOINTS, LIMITS};
-use crate::{Limits, NEEDS_STANCE, Profile, limits, stance};
+use crate::{Limits, NEEDED, Profile, limits, standing, walker};
 use surefoot::balance::Mode;
 use surefoot_firmware::freshness::Freshness;
 use surefoot_firmware::orders::Orders;
 use surefoot_link::{
     Acknowledged, BAUD, Clock, Identity, Injection, Pacing, Receiver, Rejected, RobotId, Sender,
-    SetPoint, Status, by_joint, shortest_period_us,
+    SetPoint, Status, WalkOrder, by_joint, shortest_period_us,
 };
 
 type ToTarget = surefoot_link::ToTarget<JOINTS>;
@@ -19,6 +19,9 @@ type FromTarget = surefoot_link::FromTarget<JOINTS>;
 type Sensors = surefoot_link::Sensors<JOINTS>;
 type Settings = surefoot_link::Settings<JOINTS>;
 type Torques = surefoot_link::Torques<JOINTS>;
+
+/// Forces in a measurement.
+const FORCES: usize = if cfg!(walks) { robot::FEET } else { 0 };
 
 /// Everything that idle owns.
 pub struct Application {
@@ -36,8 +39,8 @@ pub struct Application {
     sender: Sender,
     pacing: Pacing,
     profile: Profile,
-    /// Since the last settings the tick was told of ground and motors.
-    has_stance: bool,
+    /// Since the last settings the tick was told how the robot stands, and how it walks.
+    told: [bool; 2],
     log: Log,
     /// As of the last record.
     overruns: u32,
@@ -73,7 +76,7 @@ impl Application {
             sender: Sender::new(session),
             pacing: Pacing::LockStep,
             profile: Profile::new(),
-            has_stance: false,
+            told: [false; 2],
             log: Log::open(),
             overruns: 0,
             cut_torques: 0,
@@ -150,11 +153,15 @@ impl Application {
             Ok(ToTarget::Status) => FromTarget::Status(self.status()),
             Ok(ToTarget::Configure(settings)) => FromTarget::Acknowledged(self.configure(settings)),
             Ok(ToTarget::Limit(settings)) => {
-                FromTarget::Acknowledged(self.limit(limits(&settings)))
+                FromTarget::Acknowledged(self.limit(limits(&settings), None))
             }
             Ok(ToTarget::Stand(settings)) => {
-                FromTarget::Acknowledged(self.limit(stance(&settings)))
+                FromTarget::Acknowledged(self.limit(standing(&settings), Some(0)))
             }
+            Ok(ToTarget::Walker(settings)) => {
+                FromTarget::Acknowledged(self.limit(walker(&settings), Some(1)))
+            }
+            Ok(ToTarget::Walk(order)) => FromTarget::Acknowledged(self.walk(order)),
             Ok(ToTarget::SetPoint(pose)) => FromTarget::Acknowledged(self.set_point(pose)),
             Ok(ToTarget::Arm(robot)) => FromTarget::Acknowledged(self.arm(robot)),
             Ok(ToTarget::Disarm) => FromTarget::Acknowledged(self.order(Order::Disarm)),
@@ -184,7 +191,7 @@ impl Application {
         }
         let period_us = settings.period_us();
         if settings.pacing == Pacing::FreeRunning {
-            let shortest_us = shortest_period_us::<JOINTS>(BAUD);
+            let shortest_us = shortest_period_us::<JOINTS>(BAUD, FORCES);
             if period_us < shortest_us {
                 return Acknowledged::TooFast(shortest_us);
             }
@@ -198,7 +205,7 @@ impl Application {
         let answer = self.order(Order::Configure(settings));
         if answer == Acknowledged::Done {
             self.profile.configure(&settings);
-            self.has_stance = false;
+            self.told = [false; 2];
             self.pacing = settings.pacing;
             self.freshness = Freshness::new(period_us, drift(self.clock));
         }
@@ -206,7 +213,7 @@ impl Application {
     }
 
     #[inline(never)]
-    fn limit(&mut self, limits: Result<Limits, Acknowledged>) -> Acknowledged {
+    fn limit(&mut self, limits: Result<Limits, Acknowledged>, what: Option<usize>) -> Acknowledged {
         if !self.on_their_way.is_standby() {
             return Acknowledged::Busy;
         }
@@ -214,15 +221,32 @@ impl Application {
             Ok(limits) => self.order(Order::Limit(limits)),
             Err(answer) => answer,
         };
-        self.has_stance |= answer == Acknowledged::Done;
+        let told = what.and_then(|what| self.told.get_mut(what));
+        if let (Some(told), Acknowledged::Done) = (told, answer) {
+            *told = true;
+        }
         answer
+    }
+
+    #[cfg(walks)]
+    fn walk(&mut self, order: WalkOrder) -> Acknowledged {
+        let motion = order.motion.unwrap_or_default();
+        if !(motion.iter().all(|x| x.is_finite()) && order.lowered.is_finite()) {
+            return Acknowledged::Invalid;
+        }
+        self.order(Order::Walk(order))
+    }
+
+    #[cfg(not(walks))]
+    fn walk(&mut self, _: WalkOrder) -> Acknowledged {
+        Acknowledged::Unsupported
     }
 
     /// For a host that means this robot.
     fn arm(&mut self, robot: RobotId) -> Acknowledged {
         if robot != robot::ID {
             Acknowledged::Robot(robot::ID)
-        } else if NEEDS_STANCE && !self.has_stance {
+        } else if NEEDED.iter().zip(&self.told).any(|(needed, told)| *needed && !told) {
             Acknowledged::NoStance
         } else {
             self.order(Order::Arm)
@@ -254,8 +278,14 @@ impl Application {
             self.measurements_stale = self.measurements_stale.saturating_add(1);
             return;
         }
-        let (state, contacts) = (sensors.state(), sensors.contacts());
-        if self.measurements.post(Measurement { arrived_us, state, contacts }) {
+        let measurement = Measurement {
+            arrived_us,
+            state: sensors.state(),
+            contacts: sensors.contacts(),
+            #[cfg(walks)]
+            forces: core::array::from_fn(|foot| sensors.forces.get(foot).copied().unwrap_or(0.0)),
+        };
+        if self.measurements.post(measurement) {
             self.measurements_replaced = self.measurements_replaced.saturating_add(1);
         }
     }

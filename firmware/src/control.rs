@@ -9,6 +9,8 @@ use surefoot::balance::{
 };
 use surefoot::spatial::Quaternion;
 use surefoot_firmware::mailbox::{Mailbox, Reader, Writer};
+#[cfg(walks)]
+use surefoot_link::WalkOrder;
 use surefoot_link::{Pacing, SetPoint, Settings, TickLimits};
 
 /// Seconds between ticks until the host says otherwise.
@@ -20,6 +22,9 @@ pub enum Order {
     Configure(Settings<JOINTS>),
     /// Distribute within these limits; in standby only.
     Limit(Limits),
+    /// What a robot that walks is to do.
+    #[cfg(walks)]
+    Walk(WalkOrder),
     /// A pose to hold.
     SetPoint(SetPoint),
     /// Begin to balance.
@@ -78,6 +83,9 @@ pub struct Measurement {
     pub state: RobotState<f32, ROWS>,
     /// Which feet touch the ground.
     pub contacts: [bool; FEET],
+    /// Normal forces on them, N.
+    #[cfg(walks)]
+    pub forces: [f32; FEET],
 }
 
 /// Holds the newest measurement.
@@ -172,9 +180,10 @@ impl Control {
             is_measured = measured.is_some();
             let Self { supervisor, balance, reference, .. } = self;
             let state = measured.map(|measured| &measured.state);
-            let contacts = measured.map(|measured| &measured.contacts);
+            #[cfg(walks)]
+            let reference = &balance.reference(reference, state);
             supervisor.step_with(state, reference, self.overran, |now| {
-                balance.tick(now, reference, contacts)
+                balance.tick(now, reference, measured)
             })
         });
         let limits = self.balance.take_limits();
@@ -222,6 +231,8 @@ impl Control {
                     self.balance.limit(limits);
                 }
             }
+            #[cfg(walks)]
+            Order::Walk(order) => self.balance.walk(&order),
             Order::SetPoint(pose) => self.reference = reference(&pose),
             Order::Arm => self.supervisor.arm(),
             Order::Disarm => self.supervisor.disarm(),

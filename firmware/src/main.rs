@@ -49,17 +49,22 @@ mod robot;
 #[cfg(all(target_os = "none", not(whole_body)))]
 mod six_jointed;
 #[cfg(all(target_os = "none", whole_body))]
+mod stance;
+#[cfg(all(target_os = "none", walks))]
+mod walking;
+#[cfg(all(target_os = "none", whole_body, not(walks)))]
 mod whole_body;
 
-/// Whether a robot is armed only after it is known how it stands.
-#[cfg(target_os = "none")]
-const NEEDS_STANCE: bool = cfg!(whole_body);
 #[cfg(all(target_os = "none", whole_body))]
-use whole_body::{Balance, Profile, Stance as Limits, limits, stance};
+use stance::{Profile, limits};
+#[cfg(all(target_os = "none", walks))]
+use walking::{Balance, Limits, NEEDED, standing, walker};
+#[cfg(all(target_os = "none", whole_body, not(walks)))]
+use whole_body::{Balance, Limits, NEEDED, standing, walker};
 #[cfg(all(target_os = "none", not(whole_body)))]
 use {
     profile::Profile,
-    six_jointed::{Balance, Limits, limits, stance},
+    six_jointed::{Balance, Limits, NEEDED, limits, standing, walker},
 };
 
 #[cfg(target_os = "none")]

@@ -4,7 +4,11 @@
 #[allow(dead_code, missing_docs, clippy::all)]
 mod of_file {
     include!(concat!(env!("OUT_DIR"), "/robot.rs"));
-    pub use described::firmware::*;
+    #[cfg(not(whole_body))]
+    pub use described::firmware::{FINGERPRINT, LEGS, LIMITS, ROBOT, SOLES};
+    pub use described::firmware::{GAINS, ORIENTATION, POSITION};
+    #[cfg(whole_body)]
+    pub use described::whole_body::*;
 }
 
 pub use of_file::GAINS;

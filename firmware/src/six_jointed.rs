@@ -1,11 +1,17 @@
 //! The controller of robots on legs of six joints, with or without limits of ground and motors.
 
-use crate::robot::{FEET, GAINS, JOINTS, LIMITS, ROBOT, ROW, ROWS, SOLES, gains};
+use crate::control::Measurement;
+use crate::robot::{GAINS, JOINTS, LIMITS, ROBOT, ROW, ROWS, SOLES, gains};
 use surefoot::balance::{
     Command, Controller, Fault, LimitError, LimitFault, LimitField, LimitMemory, Reference,
     RobotState, Sole, WorkspaceForm, WrenchLimits, limited_tick, tick,
 };
-use surefoot_link::{Acknowledged, Settings, StanceSettings, TickLimits, WrenchSettings, by_leg};
+use surefoot_link::{
+    Acknowledged, Settings, StanceSettings, TickLimits, WalkerSettings, WrenchSettings, by_leg,
+};
+
+/// Nothing is needed before the robot is armed.
+pub const NEEDED: [bool; 2] = [false, false];
 
 /// What ground and motors give.
 pub type Limits = WrenchLimits<f32, ROWS>;
@@ -51,11 +57,11 @@ impl Balance {
         &mut self,
         state: &RobotState<f32, ROWS>,
         reference: &Reference<f32>,
-        contacts: Option<&[bool; FEET]>,
+        measured: Option<&Measurement>,
     ) -> Result<Command<f32, ROWS>, Fault> {
-        match (&mut self.limiting, contacts) {
-            (Some(limiting), Some(contacts)) => {
-                limiting.tick(&self.controller, state, reference, contacts)
+        match (&mut self.limiting, measured) {
+            (Some(limiting), Some(measured)) => {
+                limiting.tick(&self.controller, state, reference, &measured.contacts)
             }
             _ => tick(&self.controller, state, reference),
         }
@@ -69,7 +75,7 @@ impl Limiting {
         controller: &Controller<'static, f32, ROWS>,
         state: &RobotState<f32, ROWS>,
         reference: &Reference<f32>,
-        contacts: &[bool; FEET],
+        contacts: &[bool; ROWS],
     ) -> Result<Command<f32, ROWS>, Fault> {
         let Self { limits, memory, met } = self;
         let answer = limited_tick(controller, limits, state, reference, contacts, memory)?;
@@ -92,8 +98,13 @@ pub fn configure(controller: &mut Controller<'static, f32, ROWS>, settings: &Set
     };
 }
 
+/// It does not walk.
+pub fn walker(_: &WalkerSettings) -> Result<Limits, Acknowledged> {
+    Err(Acknowledged::Unsupported)
+}
+
 /// How a robot stands is said of other ones.
-pub fn stance(_: &StanceSettings<JOINTS>) -> Result<Limits, Acknowledged> {
+pub fn standing(_: &StanceSettings<JOINTS>) -> Result<Limits, Acknowledged> {
     Err(Acknowledged::Unsupported)
 }
 

@@ -26,6 +26,7 @@ mod receiver;
 mod robot;
 mod sequence;
 mod status;
+mod walking;
 
 pub use frame::{MOST_FRAME, Sender, VERSION, checksum, frame_bytes, most_wire_bytes};
 pub use joints::Joints;
@@ -38,3 +39,4 @@ pub use message::{
 pub use receiver::{Receiver, Rejected, Tally};
 pub use robot::RobotId;
 pub use status::{Clock, Crash, FaultLog, LineErrors, LoggedFault, NoCrystal, Status};
+pub use walking::{WalkOrder, WalkerFoot, WalkerSettings};

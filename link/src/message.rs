@@ -4,9 +4,10 @@
 //! Greetings are the same for robots of all sizes, so that ends of different robots can say so.
 
 use crate::joints::Joints;
-use crate::limits::{StanceSettings, TickLimits, WrenchSettings};
+use crate::limits::{MOST_FEET, StanceSettings, TickLimits, WrenchSettings};
 use crate::robot::RobotId;
 use crate::status::{Clock, Crash, Status};
+use crate::walking::{WalkOrder, WalkerSettings};
 use serde::{Deserialize, Serialize};
 use surefoot::balance::{JointLimits, LimitError, Mode, RobotState, StopReason, Thresholds};
 use surefoot::spatial::{Quaternion, Twist};
@@ -26,6 +27,11 @@ pub enum ToTarget<const JOINTS: usize> {
     /// How a robot stands that the whole-body controller balances; in standby only, and it must be said
     /// before such a robot is armed. Acknowledged; others refuse it, as such robots refuse `Limit`.
     Stand(StanceSettings<JOINTS>),
+    /// The measures of a robot that walks; after `Stand`, in standby only, and before such a robot is armed.
+    /// Acknowledged; refused by firmware that does not walk.
+    Walker(WalkerSettings),
+    /// What a robot that walks is to do from the next tick on. Acknowledged.
+    Walk(WalkOrder),
     /// A pose to hold from now on. Acknowledged.
     SetPoint(SetPoint),
     /// Begin to balance this robot at the next tick. Acknowledged; refused by a target of another.
@@ -167,6 +173,8 @@ pub struct Sensors<const JOINTS: usize> {
     pub joint_rates: Joints<f32, JOINTS>,
     /// Which feet touch the ground: bit 0 is the first. Looked at only within limits.
     pub contacts: u8,
+    /// Normal forces on the feet, N; none where the robot does not walk.
+    pub forces: Joints<f32, MOST_FEET>,
 }
 
 /// What a tick sends to the motors, and what it cost.

@@ -5,7 +5,7 @@ use surefoot::balance::{
     ContactLimit, Ground, JointLimits, Mode, Reason, Sole, StopReason, Thresholds,
 };
 use surefoot_link::{
-    BAUD, Clock, Counter, Crash, FaultLog, FromTarget, Identity, LineErrors, LoggedFault,
+    BAUD, Clock, Counter, Crash, FaultLog, FromTarget, Identity, Joints, LineErrors, LoggedFault,
     MOST_FEET, MOST_FRAME, Pacing, Receiver, Rejected, RobotId, Sender, Sensors, Settings, Status,
     Tally, TickLimits, Torques, VERSION, WrenchSettings, frame_bytes, most_wire_bytes,
     shortest_period_us, wire_us,
@@ -39,6 +39,7 @@ fn sensors<const N: usize>(seed: f32) -> Sensors<N> {
         joint_angles: [seed; N].into(),
         joint_rates: [0.0; N].into(),
         contacts: 3,
+        forces: Joints::new([0.0; MOST_FEET], 0),
     }
 }
 
@@ -486,7 +487,7 @@ fn frames_of_a_tick_are_short() {
         latency: 28,
     };
     let received = frame(&mut sender(), &FromTarget::Torques(answer)).len();
-    assert_eq!((sent, received), (167, 96));
+    assert_eq!((sent, received), (168, 96));
 }
 
 /// The line's arithmetic, as docs/firmware.md has it.
@@ -494,26 +495,26 @@ fn frames_of_a_tick_are_short() {
 fn the_line_carries_a_measurement_a_tick() {
     let longest = ToTarget::Sensors { taken_us: u32::MAX, sensors: sensors(1.0) };
     // Version, session, number; variant, time, 37 numbers, contacts, and how many
-    // joints, twice; checksum, COBS, end.
+    // joints, twice, and forces; checksum, COBS, end.
     assert_eq!(
         most_wire_bytes(&longest),
-        Some((1 + 4 + 5) + (1 + 5 + 37 * 4 + 1 + 2) + (4 + 1 + 1))
+        Some((1 + 4 + 5) + (1 + 5 + 37 * 4 + 1 + 3) + (4 + 1 + 1))
     );
-    // 1730 bits at three a microsecond, and a quarter more.
-    assert_eq!((wire_us(173, BAUD), shortest_period_us::<JOINTS>(BAUD)), (577, 722));
-    // The rate of version 1 had no room for 1 kHz: 1 878 µs, and a quarter more.
-    let slow = shortest_period_us::<JOINTS>(921_600);
-    assert_eq!((wire_us(173, 921_600), slow), (1878, 2348));
+    // 1740 bits at three a microsecond, and a quarter more.
+    assert_eq!((wire_us(174, BAUD), shortest_period_us::<JOINTS>(BAUD, 0)), (580, 725));
+    // The rate of version 1 had no room for 1 kHz: 1 889 µs, and a quarter more.
+    let slow = shortest_period_us::<JOINTS>(921_600, 0);
+    assert_eq!((wire_us(174, 921_600), slow), (1889, 2362));
     // Twice the joints: 96 bytes more, and one that COBS needs.
     let double =
         surefoot_link::ToTarget::Sensors { taken_us: u32::MAX, sensors: sensors::<24>(1.0) };
-    assert_eq!(most_wire_bytes(&double), Some(173 + 96 + 1));
-    assert_eq!(shortest_period_us::<24>(BAUD), (wire_us(270, BAUD) * 5).div_ceil(4));
+    assert_eq!(most_wire_bytes(&double), Some(174 + 96 + 1));
+    assert_eq!(shortest_period_us::<24>(BAUD, 0), (wire_us(271, BAUD) * 5).div_ceil(4));
     // The largest number has the largest frame: 2²⁸ and more take five bytes.
     let mut late = sender();
     let mut bytes = vec![];
     for _ in 0..300 {
         bytes = frame(&mut late, &longest);
     }
-    assert!(bytes.len() <= 173 && bytes.len() >= 170, "{}", bytes.len());
+    assert!(bytes.len() <= 174 && bytes.len() >= 171, "{}", bytes.len());
 }

@@ -355,7 +355,7 @@ fn orders_that_make_no_sense() {
     bad.period = 7e-4;
     assert_eq!(
         refused(&mut bench, ToTarget::Configure(bad)),
-        TooFast(shortest_period_us::<JOINTS>(BAUD))
+        TooFast(shortest_period_us::<JOINTS>(BAUD, 0))
     );
     bad.period = 0.5;
     assert_eq!(refused(&mut bench, ToTarget::Configure(bad)), TooSlow(99_864));

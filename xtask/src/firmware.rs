@@ -17,6 +17,9 @@ pub struct Options {
     /// The robot.rs that `surefoot import` wrote; the robot of the text unless said.
     #[arg(long, value_name = "DIR/robot.rs")]
     robot: Option<PathBuf>,
+    /// Images that walk, below the robot's name with `-walks`.
+    #[arg(long)]
+    walks: bool,
     /// Only this image (may be given several times); all unless said.
     #[arg(long, value_name = "IMAGE")]
     image: Vec<Variant>,
@@ -28,6 +31,8 @@ pub struct Robot {
     source: PathBuf,
     /// Of the folder of its images.
     name: String,
+    /// Whether the images walk.
+    walks: bool,
     legs: Option<usize>,
 }
 
@@ -58,7 +63,12 @@ impl Robot {
             "{}: the name {name:?} is none for a folder; {EXPECTED}",
             file.display()
         );
-        Ok(Self { name: name.to_owned(), legs: legs(&text), source })
+        Ok(Self { name: name.to_owned(), walks: false, legs: legs(&text), source })
+    }
+
+    /// The same, in images that walk.
+    pub fn walking(self) -> Self {
+        Self { walks: true, ..self }
     }
 
     /// Its robot.rs.
@@ -117,7 +127,9 @@ impl Variant {
 
     /// Where a robot's image is put: the simulator and its tests look there.
     pub fn path(self, robot: &Robot) -> PathBuf {
-        let folder = workspace::root().join("target/firmware").join(&robot.name);
+        let walks = if robot.walks { "-walks" } else { "" };
+        let folder =
+            workspace::root().join("target/firmware").join(format!("{}{walks}", robot.name));
         folder.join(format!("{}.elf", self.name()))
     }
 
@@ -129,7 +141,11 @@ impl Variant {
         };
         let cargo = arm.cargo("build").args(["--release", "--package", PACKAGE]);
         let cargo = cargo.args(features.iter().copied()).env("DEFMT_LOG", log);
-        let built = workspace::executables(cargo.env("SUREFOOT_ROBOT", &robot.source), [])?;
+        let mut cargo = cargo.env("SUREFOOT_ROBOT", &robot.source);
+        if robot.walks {
+            cargo = cargo.env("SUREFOOT_WALKS", "1");
+        }
+        let built = workspace::executables(cargo, [])?;
         let built = built.first().context("cargo has built no image")?;
         let path = self.path(robot);
         std::fs::create_dir_all(path.parent().context("a folder")?)?;
@@ -149,6 +165,7 @@ pub fn run(options: &Options) -> Result<()> {
         Some(file) => Robot::of_file(file)?,
         None => Robot::of_the_text()?,
     };
+    let robot = if options.walks { robot.walking() } else { robot };
     let images = if options.image.is_empty() { &Variant::ALL[..] } else { &options.image };
     emulator::provide()?;
     let arm = ArmToolchain::provide()?;

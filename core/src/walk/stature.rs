@@ -147,7 +147,11 @@ impl<T: Real, const FEET: usize> Stature<T, FEET> {
         stature.check().map(|()| stature)
     }
 
-    fn check(&self) -> Result<(), StatureFault> {
+    /// Whether every number can be.
+    ///
+    /// # Errors
+    /// [`StatureFault`]: the first that cannot.
+    pub fn check(&self) -> Result<(), StatureFault> {
         for (what, number) in [
             ("mass", self.robot.mass),
             ("gravity", self.robot.gravity),

@@ -1,10 +1,10 @@
 //! How a robot stands that the whole-body controller balances: what host and firmware make their settings of.
 
 use super::limiting::{FRICTION_SHARE, MOST_WEIGHTS, SOLE_SHARE, friction};
-use crate::robot::{Contacts, Robot, stance};
+use crate::robot::{Contacts, Robot, stance, with_tree};
 use crate::scene::{Feet, Scene};
 use surefoot::Real;
-use surefoot::balance::{ContactLimits, Ground, WholeBodyFoot, WholeBodySettings};
+use surefoot::balance::{ContactLimits, Ground, LeggedRobot, WholeBodyFoot, WholeBodySettings};
 use surefoot::spatial::Quaternion;
 use surefoot_link::RobotId;
 
@@ -79,10 +79,35 @@ impl Standing {
 }
 
 impl Robot {
-    /// What its firmware is known by.
+    /// What its firmware is known by, of a robot that stands; `None` of a robot that lacks limits for its joints.
     pub fn id(&self) -> Option<RobotId> {
-        self.id_on(|| feet(self))
+        if self.tree.is_six_jointed() { legs_id(self) } else { tree_id(self) }
     }
+}
+
+/// What the firmware of a scene's robot is known by.
+pub(super) fn firmware_id(scene: &Scene) -> Option<RobotId> {
+    let robot = scene.robot();
+    if scene.walk.is_empty() { robot.id() } else { tree_id(&robot) }
+}
+
+/// On legs of six joints: of its numbers in single precision, and of its supervisor's limits.
+pub(super) fn legs_id(robot: &Robot) -> Option<RobotId> {
+    with_tree!(&robot.tree, tree, LEGS => {
+        let limits = robot.limits.sized::<LEGS>()?;
+        Some(RobotId::of(&LeggedRobot::<f64, LEGS>::new(tree).to_f32(), &limits.to_f32()))
+    }, _tree, _ROWS => None)
+}
+
+/// As the whole-body controller takes it: of its feet too.
+pub(super) fn tree_id(robot: &Robot) -> Option<RobotId> {
+    with_tree!(&robot.tree, tree, ROWS => {
+        let limits = robot.limits.in_rows::<ROWS>()?.to_f32();
+        Some(RobotId::of_tree(&tree.to_f32(), robot.tree.bodies(), &feet(robot), &limits))
+    }, tree, ROWS => {
+        let limits = robot.limits.in_rows::<ROWS>()?.to_f32();
+        Some(RobotId::of_tree(&tree.to_f32(), robot.tree.bodies(), &feet(robot), &limits))
+    })
 }
 
 /// A robot's feet, with as much of their soles as is counted on, before it is known what they stand on.

@@ -8,7 +8,7 @@ use super::supervised::{recorded, remembered};
 use super::whole_body::{WholeBodyHost, padded};
 use crate::plant::PlantState;
 use crate::record;
-use crate::robot::{LEG, WalkerShape};
+use crate::robot::{LEG, WalkerShape, with_tree};
 use crate::scene::{Scene, WalkCommand};
 use nalgebra::{Vector2, Vector3};
 use surefoot::Real;
@@ -20,6 +20,34 @@ use surefoot::balance::{
 use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, Wrench};
 use surefoot::walk::{self, PlaneMotion, Planner, StandingRobot, Stature, WalkFault, WalkMemory};
+
+/// What a target must know of a robot that walks.
+pub(super) struct WalkStart {
+    pub stature: Stature<f32, FEET>,
+    /// Yaw of the central body, rad.
+    pub heading: f32,
+    /// Of the central body, m.
+    pub height: f32,
+}
+
+/// Of a scene's robot.
+pub(super) fn start(scene: &Scene) -> WalkStart {
+    with_tree!(&scene.robot().tree, tree => {
+        let walker = Walker::new(tree.to_f32(), scene, 1.0_f32);
+        let (stature, heading) = (walker.planner.stature, walker.memory.heading);
+        WalkStart { stature, heading, height: walker.height }
+    })
+}
+
+/// What a robot is to do at a time.
+pub(super) fn asked<T: Real>(commands: &[WalkCommand], time_s: f64) -> walk::WalkCommand<T> {
+    let now = commands.iter().rfind(|command| command.at_s <= time_s);
+    let walk = now.filter(|command| !command.stand).map(|command| PlaneMotion {
+        velocity: Vector2::new(T::of(command.forward_mps), T::of(command.left_mps)),
+        turning_rate: T::of(command.turn_deg_per_s.to_radians()),
+    });
+    walk::WalkCommand { walk, lowered: T::of(now.map_or(0.0, |c| c.lowered_m)) }
+}
 
 /// Planner and controller in precision `T`, with a supervisor unless it is bare.
 pub(super) struct WalkingHost<
@@ -105,12 +133,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
 
     /// What the robot is to do now.
     fn asked(&self) -> walk::WalkCommand<T> {
-        let now = self.commands.iter().rfind(|command| command.at_s <= self.body.time_s);
-        let walk = now.filter(|command| !command.stand).map(|command| PlaneMotion {
-            velocity: Vector2::new(T::of(command.forward_mps), T::of(command.left_mps)),
-            turning_rate: T::of(command.turn_deg_per_s.to_radians()),
-        });
-        walk::WalkCommand { walk, lowered: T::of(now.map_or(0.0, |c| c.lowered_m)) }
+        asked(&self.commands, self.body.time_s)
     }
 
     fn command(

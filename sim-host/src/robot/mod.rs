@@ -7,7 +7,6 @@ mod bent_legs;
 mod biped;
 mod contacts;
 mod from_file;
-mod identity;
 mod limits;
 mod sized_tree;
 mod soles;

@@ -39,6 +39,18 @@ fn firmware(folder: &Path, robot: &str) {
     assert!(build.status.success(), "{}", text(&build));
 }
 
+/// A scene ends as it should, and every number of its record is the same on host and target.
+fn is_as_on_the_host(folder: &Path, name: &str, scene: &str, outcome: &str) {
+    let (host, target) = (format!("{name}-host"), format!("{name}-target"));
+    said(folder, &["run", scene, "--scalar", "f32", "--out", &host]);
+    let run = ["run", scene, "--controller", "firmware", "--out", &target, "--json"];
+    let document: Value = serde_json::from_str(&said(folder, &run)).expect("JSON");
+    println!("{name}: {} {}", document["outcome"], document["target"]);
+    assert_eq!(document["outcome"], outcome);
+    let record = |of: &str| std::fs::read(folder.join(of).join("record.csv")).expect("written");
+    assert!(record(&host) == record(&target), "the record of the target is another one");
+}
+
 /// It stands, and every number of its record is the host's.
 fn stands(name: &str, file: &str, more: &[&str]) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("robots-on-target");
@@ -48,14 +60,7 @@ fn stands(name: &str, file: &str, more: &[&str]) {
     said(&folder, &[&import[..], more].concat());
     firmware(&folder, &format!("{name}/robot.rs"));
     let scene = format!("{name}/stand.toml");
-    let (host, target) = (format!("{name}-host"), format!("{name}-target"));
-    said(&folder, &["run", &scene, "--scalar", "f32", "--out", &host]);
-    let run = ["run", &scene, "--controller", "firmware", "--out", &target, "--json"];
-    let document: Value = serde_json::from_str(&said(&folder, &run)).expect("JSON");
-    println!("{name}: {} {}", document["outcome"], document["target"]);
-    assert_eq!(document["outcome"], "balanced");
-    let record = |of: &str| std::fs::read(folder.join(of).join("record.csv")).expect("written");
-    assert!(record(&host) == record(&target), "the record of the target is another one");
+    is_as_on_the_host(&folder, name, &scene, "balanced");
     // The image of this robot is for no other.
     let image = format!("target/firmware/{}/emulation.elf", image_name(&folder, name));
     let image = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(image);
@@ -96,4 +101,31 @@ fn g1_with_waist_and_arms_stands_on_the_target() {
 #[ignore = "needs robot files and the target's compiler: `cargo xtask test --only firmware`"]
 fn go1_stands_on_the_target() {
     stands("go1", "go1_description/urdf/go1.urdf", &[]);
+}
+
+/// The robot of the text has a file by hand, whose last module is what the program writes of other robots.
+#[test]
+fn the_biped_is_described_as_imported_robots_are() {
+    let robot = surefoot_sim::scene::load("walk").expect("built in").robot();
+    let uses = "use surefoot::model::robots::biped;\n";
+    let expressions = ["biped::TREE", "biped::LIMITS"];
+    let module = surefoot_sim::closed_loop::firmware::whole_body_module(&robot, uses, expressions);
+    let module = module.expect("a robot with limits");
+    let file = include_str!("../../../firmware/robots/biped.rs");
+    assert!(file.ends_with(&module), "firmware/robots/biped.rs should end with\n{module}");
+}
+
+/// The walk on the emulated target, of the robot of the text.
+#[test]
+#[ignore = "needs the target's compiler: `cargo xtask test --only firmware`"]
+fn the_biped_walks_on_the_target() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("robots-on-target");
+    std::fs::create_dir_all(&folder).expect("a folder below the target directory");
+    let build = Command::new(env!("CARGO"))
+        .args(["xtask", "firmware", "--walks", "--image", "emulation"])
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+        .output()
+        .expect("cargo starts");
+    assert!(build.status.success(), "{}", text(&build));
+    is_as_on_the_host(&folder, "walk", "walk", "completed");
 }

@@ -2,15 +2,16 @@
 
 use super::{LinkError, Target, Transport, image};
 use crate::closed_loop::limiting::{Given, LimitTally};
-use crate::closed_loop::standing::Standing;
+use crate::closed_loop::standing::{Standing, firmware_id};
+use crate::closed_loop::walking::{self, WalkStart};
 use crate::closed_loop::{Commanded, ControlFailure, Controller, Costs};
 use crate::plant::PlantState;
 use crate::robot::{LEG, SharedRobot, with_tree};
-use crate::scene::{Scene, Workspace};
+use crate::scene::{Scene, WalkCommand, Workspace};
 use surefoot::balance::{Ground, JointLimits, Sole, StopReason, Thresholds};
 use surefoot_link::{
-    Clock, Counter, Joints, Pacing, Sensors, SetPoint, Settings, StanceSettings, ToTarget, Torques,
-    WrenchSettings,
+    Clock, Counter, Joints, MOST_FEET, Pacing, Sensors, SetPoint, Settings, StanceSettings,
+    ToTarget, Torques, WalkOrder, WalkerSettings, WrenchSettings,
 };
 
 /// A target that balances a scene's plant, in lock step with it.
@@ -28,6 +29,17 @@ pub struct FirmwareController<const JOINTS: usize> {
     tally: Option<LimitTally>,
     /// In which of them some limit bound.
     limited: Vec<bool>,
+    /// Of a robot that walks.
+    walk: Option<Walk>,
+}
+
+/// What a robot that walks is asked.
+struct Walk {
+    commands: Vec<WalkCommand>,
+    /// The last that was told.
+    told: Option<WalkOrder>,
+    /// Normal forces on its feet at the next tick, N.
+    forces: Joints<f32, MOST_FEET>,
 }
 
 /// A scene's controller on a target of its robot.
@@ -55,8 +67,8 @@ impl<const JOINTS: usize> FirmwareController<JOINTS> {
     /// [`LinkError`].
     pub fn new(mut target: Target<JOINTS>, scene: &Scene) -> Result<Self, LinkError> {
         let robot = scene.robot();
-        let wanted =
-            robot.id().ok_or_else(|| LinkError::NoFirmware { robot: robot.name.clone() })?;
+        let wanted = firmware_id(scene)
+            .ok_or_else(|| LinkError::NoFirmware { robot: robot.name.clone() })?;
         let found = target.identity().robot;
         if wanted != found {
             let (name, command) = (robot.name.clone(), image::command(scene));
@@ -67,7 +79,8 @@ impl<const JOINTS: usize> FirmwareController<JOINTS> {
         }
         target.order("disarm", &ToTarget::Disarm)?;
         target.order("configure", &ToTarget::Configure(settings(scene)))?;
-        let is_limited = if robot.tree.is_six_jointed() {
+        let walks = !scene.walk.is_empty();
+        let is_limited = if robot.tree.is_six_jointed() && !walks {
             let limits = wrench_settings(scene);
             if let Some(limits) = &limits {
                 target.order("limits of ground and motors", &ToTarget::Limit(limits.clone()))?;
@@ -77,12 +90,23 @@ impl<const JOINTS: usize> FirmwareController<JOINTS> {
             target.order("how the robot stands", &ToTarget::Stand(stance_settings(scene)))?;
             true
         };
-        target.order("set point", &ToTarget::SetPoint(set_point(scene)))?;
+        let mut pose = set_point(scene);
+        if walks {
+            let WalkStart { stature, heading, height } = walking::start(scene);
+            let settings = WalkerSettings::of(&stature, heading);
+            target.order("how the robot walks", &ToTarget::Walker(settings))?;
+            // Where the supervisor expects it.
+            pose.position[2] = height;
+        }
+        target.order("set point", &ToTarget::SetPoint(pose))?;
         target.order("arm", &ToTarget::Arm(wanted))?;
         let (costs, stopped) = (Vec::new(), None);
         let tally = is_limited.then(LimitTally::default);
         let (time_s, contacts, limited) = (0.0, u8::MAX, Vec::new());
-        Ok(Self { target, robot, costs, stopped, time_s, contacts, tally, limited })
+        let (commands, told) = (scene.walk.clone(), None);
+        let forces = Joints::new([0.0; MOST_FEET], robot.feet.len());
+        let walk = walks.then_some(Walk { commands, told, forces });
+        Ok(Self { target, robot, costs, stopped, time_s, contacts, tally, limited, walk })
     }
 
     /// What each tick has cost, in the target's unit.
@@ -105,7 +129,15 @@ impl<const JOINTS: usize> FirmwareController<JOINTS> {
     /// # Errors
     /// A [`LinkError`].
     pub fn exchange(&mut self, state: &PlantState) -> Result<Torques<JOINTS>, LinkError> {
-        let sensors = Sensors { contacts: self.contacts, ..sensors(state) };
+        let mut sensors = Sensors { contacts: self.contacts, ..sensors(state) };
+        if let Some(walk) = &mut self.walk {
+            let asked = WalkOrder::from(&walking::asked::<f32>(&walk.commands, self.time_s));
+            if walk.told != Some(asked) {
+                self.target.order("walk", &ToTarget::Walk(asked))?;
+                walk.told = Some(asked);
+            }
+            sensors.forces = walk.forces;
+        }
         let torques = self.target.tick(&sensors)?;
         self.costs.push(torques.cost);
         self.limited.push(torques.limits.is_some_and(|limits| limits.is_active));
@@ -128,6 +160,7 @@ pub fn sensors<const JOINTS: usize>(state: &PlantState) -> Sensors<JOINTS> {
         joint_angles: Joints::new(of(positions, 7), joints),
         joint_rates: Joints::new(of(velocities, 6), joints),
         contacts: u8::MAX,
+        forces: Joints::new([0.0; MOST_FEET], 0),
     }
 }
 
@@ -231,6 +264,15 @@ impl<const JOINTS: usize> Controller for FirmwareController<JOINTS> {
 
     fn touch(&mut self, time_s: f64, feet: &[bool]) {
         (self.time_s, self.contacts) = (time_s, Sensors::<JOINTS>::contact_bits(feet));
+    }
+
+    fn press(&mut self, time_s: f64, normal_forces: &[f64]) {
+        self.time_s = time_s;
+        if let Some(walk) = &mut self.walk {
+            for (to, force) in walk.forces.iter_mut().zip(normal_forces) {
+                *to = *force as f32;
+            }
+        }
     }
 
     fn limits(&self) -> Option<LimitTally> {

@@ -14,7 +14,9 @@ const IMAGES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/firmware");
 /// [`LinkError::NoImage`], with the command that builds it.
 pub fn image_for(scene: &Scene) -> Result<PathBuf, LinkError> {
     let robot = scene.robot();
-    let image = Path::new(IMAGES).join(folder_name(&robot)).join("emulation.elf");
+    let walks = if scene.walk.is_empty() { "" } else { "-walks" };
+    let folder = folder_name(&robot) + walks;
+    let image = Path::new(IMAGES).join(folder).join("emulation.elf");
     if image.exists() {
         return Ok(image);
     }
@@ -34,15 +36,16 @@ pub fn folder_name(robot: &Robot) -> String {
 
 /// What builds a scene's robot's images.
 pub(super) fn command(scene: &Scene) -> String {
+    let walks = if scene.walk.is_empty() { "" } else { " --walks" };
     let Some(file) = scene.robot.as_ref().and_then(|entry| entry.path()) else {
-        return "cargo xtask firmware".to_owned();
+        return format!("cargo xtask firmware{walks}");
     };
     if file.extension().is_some_and(|extension| extension == "toml") {
         let source = file.with_file_name("robot.rs");
-        return format!("cargo xtask firmware --robot {}", source.display());
+        return format!("cargo xtask firmware{walks} --robot {}", source.display());
     }
     format!(
-        "surefoot import {} --out DIR` and `cargo xtask firmware --robot DIR/robot.rs",
+        "surefoot import {} --out DIR` and `cargo xtask firmware{walks} --robot DIR/robot.rs",
         file.display()
     )
 }

@@ -18,7 +18,7 @@ pub use controller::{
 };
 pub use emulator::Emulator;
 pub use image::image_for;
-pub use robot_module::robot_module;
+pub use robot_module::{robot_module, whole_body_module};
 pub use serial::SerialPort;
 pub use target::{LinkError, Target};
 pub use transport::Transport;

@@ -4,7 +4,7 @@
 //! as constants.
 
 use super::{folder_name, gains, set_point};
-use crate::closed_loop::standing::feet;
+use crate::closed_loop::standing::{feet, legs_id, tree_id};
 use crate::robot::{LEG, Robot};
 use crate::scene::Scene;
 use std::fmt::Write;
@@ -15,44 +15,50 @@ use surefoot_robots::tree_source;
 /// scene of another robot, and for one without limits for its joints.
 pub fn robot_module(scene: &Scene) -> Option<String> {
     let robot = scene.robot();
-    let fingerprint = robot.id()?.fingerprint;
+    let legs = robot.tree.is_six_jointed().then(|| legs_id(&robot));
+    let legs = legs.flatten();
     let tree = tree_source(scene.robot.as_ref()?.described()?);
     let mut out = String::new();
-    let is_six_jointed = robot.tree.is_six_jointed();
-    let write = if is_six_jointed { six_jointed } else { whole_body };
     // Writing to a string does not fail.
-    head(&mut out, &robot, is_six_jointed, fingerprint).ok()?;
-    write(&mut out, &robot, &tree).ok()?;
+    head(&mut out, &robot, legs.is_some()).ok()?;
+    if let Some(id) = legs {
+        six_jointed(&mut out, &robot, &tree, id.fingerprint).ok()?;
+    }
     tail(&mut out, scene).ok()?;
+    let limits = limits(&robot);
+    out += &whole_body_module(&robot, "", [&tree, &limits])?;
     Some(out)
 }
 
-fn head(
-    out: &mut String,
-    robot: &Robot,
-    is_six_jointed: bool,
-    fingerprint: u32,
-) -> std::fmt::Result {
+/// The last module of a robot's `robot.rs`: the robot as the whole-body controller takes it, of robots with other
+/// legs than of six joints, or that move more, or that walk. What else it uses, and the expressions of its tree and of
+/// its supervisor's limits, in f64; `None` for a robot without limits for its joints.
+pub fn whole_body_module(robot: &Robot, uses: &str, expressions: [&str; 2]) -> Option<String> {
+    let mut out = String::new();
+    whole_body(&mut out, robot, uses, expressions).ok()?;
+    Some(out)
+}
+
+fn head(out: &mut String, robot: &Robot, is_six_jointed: bool) -> std::fmt::Result {
     writeln!(out, "\n/// What the firmware balances.")?;
     writeln!(out, "#[rustfmt::skip]\npub mod firmware {{")?;
-    let uses = if is_six_jointed {
-        "use surefoot::balance::{JointDamping, JointLimits, LeggedRobot, SafetyLimits, Sole, Thresholds};"
-    } else {
-        "use surefoot::balance::{ContactLimits, ContactPatch, JointDamping, JointLimits};\n\
-         use surefoot::balance::{SafetyLimits, Thresholds, WholeBodyFoot};\n\
-         use surefoot::spatial::{Quaternion, Vector3};"
-    };
-    writeln!(out, "{uses}\nuse surefoot::model::{{Link, Tree}};\n")?;
+    if is_six_jointed {
+        writeln!(
+            out,
+            "use surefoot::balance::{{JointDamping, JointLimits, LeggedRobot, SafetyLimits, Sole, Thresholds}};\n\
+             use surefoot::model::{{Link, Tree}};\n"
+        )?;
+    }
     writeln!(out, "/// Its images are in the folder `target/firmware` below this name.")?;
-    writeln!(out, "pub const NAME: &str = {:?};", folder_name(robot))?;
-    writeln!(out, "/// Of the robot and `LIMITS`, by which the other end of the link knows them.")?;
-    writeln!(out, "pub const FINGERPRINT: u32 = {fingerprint:#010x};")
+    writeln!(out, "pub const NAME: &str = {:?};", folder_name(robot))
 }
 
 /// Of a robot on legs of six joints, everything else locked.
-fn six_jointed(out: &mut String, robot: &Robot, tree: &str) -> std::fmt::Result {
+fn six_jointed(out: &mut String, robot: &Robot, tree: &str, fingerprint: u32) -> std::fmt::Result {
     let (legs, joints) = (robot.leg_count(), robot.joint_count());
     let size = format!("{}, {}, {}", joints + 1, joints + 7, joints + 6);
+    writeln!(out, "/// Of `ROBOT` and `LIMITS`, by which the other end of the link knows them.")?;
+    writeln!(out, "pub const FINGERPRINT: u32 = {fingerprint:#010x};")?;
     writeln!(out, "/// Legs of six revolute joints.\npub const LEGS: usize = {legs};\n")?;
     writeln!(out, "/// Of the legs' joints.\npub const TREE: Tree<f64, {size}> = {tree};\n")?;
     writeln!(out, "/// As the balance controller takes it.")?;
@@ -71,10 +77,29 @@ fn six_jointed(out: &mut String, robot: &Robot, tree: &str) -> std::fmt::Result 
     writeln!(out, "pub const SOLES: Option<[Sole<f32>; LEGS]> = {soles};\n")
 }
 
-/// Of any other one.
-fn whole_body(out: &mut String, robot: &Robot, tree: &str) -> std::fmt::Result {
+fn whole_body(
+    out: &mut String,
+    robot: &Robot,
+    uses: &str,
+    [tree, limits]: [&str; 2],
+) -> std::fmt::Result {
+    let fingerprint = tree_id(robot).ok_or(std::fmt::Error)?.fingerprint;
     let joints = robot.joint_count();
     let rows = joints.div_ceil(LEG);
+    writeln!(out, "\n/// The same for the whole-body controller, which walks too.")?;
+    writeln!(out, "#[rustfmt::skip]\npub mod whole_body {{")?;
+    writeln!(
+        out,
+        "#[allow(unused_imports)]\n\
+         use surefoot::balance::{{ContactLimits, ContactPatch, JointDamping, JointLimits}};\n\
+         #[allow(unused_imports)]\n\
+         use surefoot::balance::{{SafetyLimits, Thresholds, WholeBodyFoot}};\n\
+         #[allow(unused_imports)]\n\
+         use surefoot::model::{{Link, Tree}};\n\
+         use surefoot::spatial::{{Quaternion, Vector3}};\n{uses}"
+    )?;
+    writeln!(out, "/// Of all below, by which the other end of the link knows them.")?;
+    writeln!(out, "pub const FINGERPRINT: u32 = {fingerprint:#010x};")?;
     writeln!(out, "/// Joints, which are the tree's bodies but the central one.")?;
     writeln!(out, "pub const JOINTS: usize = {joints};")?;
     writeln!(out, "/// Bodies of the tree.\npub const NODES: usize = {};", joints + 1)?;
@@ -107,8 +132,7 @@ fn whole_body(out: &mut String, robot: &Robot, tree: &str) -> std::fmt::Result {
     }
     writeln!(out, "];\n")?;
     writeln!(out, "/// What its supervisor allows: messages may be tighter, and no wider.")?;
-    let limits = limits(robot);
-    writeln!(out, "pub const LIMITS: SafetyLimits<f32, ROWS> = {limits}.to_f32();\n")
+    writeln!(out, "pub const LIMITS: SafetyLimits<f32, ROWS> = {limits}.to_f32();\n}}")
 }
 
 fn tail(out: &mut String, scene: &Scene) -> std::fmt::Result {
