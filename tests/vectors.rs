@@ -22,6 +22,11 @@ pub fn rotors() -> Value {
     parse(include_str!("vectors/rotor_vectors.json"))
 }
 
+/// Steps and ticks of a planner of walks, made by `vectors/walk_vectors.py` with a program in Python.
+pub fn walk() -> Value {
+    parse(include_str!("vectors/walk_vectors.json"))
+}
+
 pub(crate) fn parse(text: &str) -> Value {
     serde_json::from_str(text).expect("the vectors are valid JSON")
 }

@@ -9,3 +9,4 @@ mod multibody;
 mod precision;
 mod qp;
 mod spatial;
+mod walk;
