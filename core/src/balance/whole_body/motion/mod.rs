@@ -14,10 +14,9 @@
 //! is wanted, `w_i` its wrench in sole axes; `J⁺`, `J_b` of the contacts; `M` mass matrix, `h` inverse
 //! dynamics at `θ̈₁`, index b for the central body's rows, i for those of leg i's joints.
 //! ```text
-//! δ_i = J_i⁺ (d_i − J_b,i X)                                                       (1)
-//! P X + z = Σ_press G_i w_i − Σ_swing M_bi J_i⁺ d_i,
-//!     P = M_bb − Σ M_bi J_i⁺ J_b,i,   z = h_b                                      (2)
-//! τ_k = M_kb X + Σ M_ki δ_i + h_k − Σ_{pressing feet outboard of k} s_k · G_i w_i   (3)
+//! δ_i = J_i⁺ (d_i − J_b,i X),     B = M_b − Σ M_i J_i⁺ J_b,i   (M_b, M_i: columns)  (1)
+//! P X + z = Σ_press G_i w_i − Σ_swing M_bi J_i⁺ d_i,     P = B_b,   z = h_b         (2)
+//! τ_k = B_k X + Σ_swing M_ki J_i⁺ d_i + h_k − Σ_{press, outboard of k} s_k · G_i w_i (3)
 //! ```
 //! What is minimised, with x the unknowns of all feet:
 //! ```text

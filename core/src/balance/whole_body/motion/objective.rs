@@ -17,7 +17,7 @@ use crate::Real;
 use crate::balance::LinearTask;
 use crate::balance::whole_body::MotionTask;
 use crate::qp::Ldl;
-use crate::spatial::Wrench;
+use crate::spatial::{Twist, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
 /// What counts how much where not all can be had.
@@ -77,13 +77,14 @@ pub(super) struct Objective<T, const FEET: usize> {
 }
 
 impl<T: Real, const FEET: usize> Objective<T, FEET> {
-    /// `None` where a number is not finite.
+    /// `free` is X where all unknowns are zero. `None` where a number is not finite.
     #[inline(always)]
     pub fn new<const NV: usize>(
         dynamics: &MotionDynamics<'_, T, FEET, NV>,
         weights: &MotionWeights<T>,
         around: &Surroundings<'_, T>,
         task: &MotionTask<T, FEET>,
+        free: Twist<T>,
     ) -> Option<Self> {
         let (zero, one) = (T::zero(), T::one());
         let mass = around.mass;
@@ -102,8 +103,7 @@ impl<T: Real, const FEET: usize> Objective<T, FEET> {
                 }
             }
         }
-        let free = dynamics.moved(&[[zero; DIRECTIONS]; FEET]).base.angular;
-        let wanted = (around.central.tr_mul(&task.angular) - free) * angular;
+        let wanted = (around.central.tr_mul(&task.angular) - free.angular) * angular;
         let goal = linear_goal(&task.linear, around) * linear;
         let goal = [goal.x, goal.y, goal.z, wanted.x, wanted.y, wanted.z];
         for ((columns, inverse), foot) in columns.iter_mut().zip(&mut inverse).zip(dynamics.feet) {

@@ -2,6 +2,7 @@
 
 use super::super::contact::{Asked, Contact, Place};
 use super::super::measured::first3;
+
 use super::super::observed::ObservedBody;
 use super::super::report::WholeBodyReport;
 use super::super::robot::Leg;
@@ -84,10 +85,15 @@ pub fn whole_body_motion_tick<
         gravity: tree.gravity,
         mass: robot.mass,
     };
-    let objective = Objective::new(&dynamics, &settings.motion, &around, task);
+    let free = dynamics.free();
+    let objective = Objective::new(&dynamics, &settings.motion, &around, task, free);
     let objective = objective.ok_or(Fault::Overflow)?;
-    let program =
-        MotionProgram { dynamics: &dynamics, objective: &objective, torques: &settings.torques };
+    let program = MotionProgram {
+        dynamics: &dynamics,
+        objective: &objective,
+        torques: &settings.torques,
+        free,
+    };
     let active = &mut memory.active;
     let solution = solve(&program, active, &settings.limits).map_err(|_| Fault::Overflow)?;
 
@@ -116,7 +122,8 @@ pub fn whole_body_motion_tick<
     for (to, x) in command.accelerations.iter_mut().zip(moved.base.to_array()) {
         *to = x;
     }
-    for (number, ((foot, leg), x)) in feet.iter().zip(&moved.legs).zip(x).enumerate() {
+    let legs = dynamics.legs(&moved);
+    for (number, ((foot, leg), x)) in feet.iter().zip(&legs).zip(x).enumerate() {
         let Some(MotionFoot { contact, limits }) = foot else { continue };
         for (joint, more) in contact.joints.iter().zip(leg).take(contact.count) {
             if let Some(to) = command.accelerations.get_mut(*joint) {
@@ -141,10 +148,10 @@ pub fn whole_body_motion_tick<
             *place = Some(left);
         }
     }
+    let asked = dynamics.torques(&moved);
     let motors = command.torques.iter_mut().zip(&robot.joints).zip(&settings.torques);
-    for (velocity, ((torque, joint), limit)) in motors.enumerate() {
+    for (((torque, joint), limit), asked) in motors.zip(asked) {
         if joint.is_some() {
-            let asked = dynamics.torque(velocity, &moved);
             if !asked.is_finite() {
                 return Err(Fault::Overflow);
             }
