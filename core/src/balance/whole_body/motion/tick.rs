@@ -34,7 +34,6 @@ use nalgebra::Vector3;
 /// # Cost
 /// Inverse dynamics of the tree, about 2000 multiplications a foot, and at most `settings.limits.work` on
 /// limits. No allocation, no panic.
-#[inline]
 pub fn whole_body_motion_tick<
     T: Real,
     const N: usize,
