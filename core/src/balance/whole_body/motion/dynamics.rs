@@ -108,7 +108,7 @@ impl<'a, T: Real, const FEET: usize, const NV: usize> MotionDynamics<'a, T, FEET
     }
 
     /// (2)
-    #[inline(always)]
+    #[inline(never)]
     pub fn moved(&self, x: &[Unknowns<T>; FEET]) -> Moved<T, FEET> {
         let mut right = [T::zero(); 6];
         for (to, bias) in right.iter_mut().zip(&self.bias) {
@@ -152,7 +152,7 @@ impl<'a, T: Real, const FEET: usize, const NV: usize> MotionDynamics<'a, T, FEET
     }
 
     /// (3), by velocity.
-    #[inline(always)]
+    #[inline(never)]
     pub fn torques(&self, moved: &Moved<T, FEET>) -> [T; NV] {
         let mut torques = self.bias;
         for (torque, row) in torques.iter_mut().zip(&self.rows).skip(6) {
@@ -200,7 +200,7 @@ impl<'a, T: Real, const FEET: usize, const NV: usize> MotionDynamics<'a, T, FEET
     }
 
     /// Of `y · P X`, and of what (3) has beside X for a joint.
-    #[inline(always)]
+    #[inline(never)]
     fn gradient(&self, y: &Twist<T>, direct: Option<usize>) -> [Unknowns<T>; FEET] {
         let joint = direct.and_then(|velocity| self.robot.joints.get(velocity)?.as_ref());
         let row = direct.and_then(|velocity| self.masses.get(velocity));

@@ -78,7 +78,7 @@ pub(super) struct Objective<T, const FEET: usize> {
 
 impl<T: Real, const FEET: usize> Objective<T, FEET> {
     /// `free` is X where all unknowns are zero. `None` where a number is not finite.
-    #[inline(always)]
+    #[inline(never)]
     pub fn new<const NV: usize>(
         dynamics: &MotionDynamics<'_, T, FEET, NV>,
         weights: &MotionWeights<T>,
@@ -153,7 +153,7 @@ impl<T: Real, const FEET: usize> Objective<T, FEET> {
     }
 
     /// (2)
-    #[inline(always)]
+    #[inline(never)]
     pub fn response(&self, gradient: &[Unknowns<T>; FEET]) -> [Unknowns<T>; FEET] {
         let mut scaled = *gradient;
         let mut task = [T::zero(); 6];
