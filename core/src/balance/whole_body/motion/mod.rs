@@ -26,6 +26,22 @@
 //! [`ContactProgram`](crate::balance::ContactProgram), and limits give way alike. Where the centre of
 //! pressure is the task, `c̈ − c̈*` is horizontally `κ/(m g)` times the moment of the ground's forces about
 //! it ([`LinearTask`](super::LinearTask)), each taken at its foot's own height.
+//!
+//! # Cost
+//! The biped in f32, instructions of a Cortex-M4F (and of x86): [`observe`](super::observe) 28 600
+//! (21 400), the planner's view of it 1 400 (1 300), the tick 41 000 to 44 000 (30 400) while no limit is in
+//! force, and about 5 800 (4 600) for each that comes or goes. Stack of the tick 12.3 KB beside an
+//! [`ObservedBody`](super::ObservedBody) of 3.6 KB.
+//!
+//! # Accuracy
+//! In f32, of 800 harsh states of the biped, a third of them with limits in force: torques within 0.03 N·m
+//! of f64's.
+//!
+//! # Sources
+//! Centre of pressure as the task: as in walking by the angular momentum about the contact (Gong and
+//! Grizzle 2020); wrenches and accelerations of feet as the unknowns of one program, as in task-space
+//! inverse dynamics (Sentis and Khatib 2005; Herzog et al., *Auton. Robots* 40, 2016); the inverse of a
+//! sum by a small one, Woodbury 1950.
 
 mod dynamics;
 mod objective;

@@ -38,9 +38,10 @@ pub struct MotionWeights<T> {
 }
 
 impl<T: Real> MotionWeights<T> {
-    /// Starting values for a centre of mass at the height `z` (m) under gravity `g` (m/s²): λ = 1,
-    /// α = 0.015 z², a fifth of a swinging foot's σ = 0.05 times its own ρ = 0.0074 z²; ε = 0.01 for a
-    /// force of m g/7.3, ℓ = z/8.2.
+    /// Starting values for a centre of mass at the height `z` (m) under gravity `g` (m/s²). With
+    /// z₀ = 0.82 m: λ = 1, α = 0.01 (z/z₀)², σ = 0.05, ρ = 0.005 (z/z₀)², and ε such that a force of
+    /// m g/7.3 counts as 0.1 m/s²; ℓ = z/8.2. A weight of a swinging foot above some tenths takes the
+    /// ground's force for it; one of the trunk above α keeps it more level, and takes from pushes.
     pub fn scaled(height: T, gravity: T) -> Self {
         let square = height * height;
         Self {

@@ -60,9 +60,9 @@ impl<T: Real, const FEET: usize, const NV: usize> Program<T> for MotionProgram<'
         ProgramCost {
             factor: 0,
             response: 36 + 84 * feet,
-            row: 72 + 120 * feet,
+            row: 36 + 80 * feet,
             product: 6 * feet,
-            scan: 36 + 180 * feet + 18 * joints,
+            scan: 36 + 110 * feet + 12 * joints,
         }
     };
 

@@ -273,9 +273,9 @@ fn survey<const N: usize, const NQ: usize, const NV: usize>(
 #[test]
 fn commands_obey_the_equations_of_motion_and_are_optimal() {
     let all = [survey(1, true, quadruped), survey(2, true, five), survey(3, false, seven)];
-    println!("{all:?}");
     for found in all {
-        assert!(found.forward < 5e-12 && found.rest < 1e-10 && found.slope < 1e-9, "{found:?}");
+        // Measured: 1.8e-12, 8.5e-14, 4.5e-12.
+        assert!(found.forward < 5e-12 && found.rest < 5e-13 && found.slope < 2e-11, "{found:?}");
         assert!(found.free > 20 && found.limited > 20 && found.deviation > 0.1, "{found:?}");
     }
 }
@@ -323,9 +323,8 @@ fn in_flight_gravity_alone_acts() {
         most[0] = most[0].max(momentum.norm() / (1.0 + at.motion.angular_momentum.norm()));
         most[1] = most[1].max(fall.norm());
     }
-    println!("{most:?}");
-    // What differences over 0.1 ms leave.
-    assert!(most[0] < 1e-4 && most[1] < 1e-4, "{most:?}");
+    // What differences over 0.1 ms leave: 1.3e-5, 1.2e-6.
+    assert!(most[0] < 5e-5 && most[1] < 5e-6, "{most:?}");
 }
 
 #[test]

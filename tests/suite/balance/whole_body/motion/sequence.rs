@@ -49,8 +49,9 @@ fn a_warm_start_from_other_feet_comes_to_the_same_torques() {
             }
         }
     }
-    println!("{most} {bound} {changes:?}");
-    assert!(most < 1e-8 && bound > 300, "{most} {bound} {changes:?}");
+    // Measured: 2.3e-14 of the greatest torque; 390 of 400 limited, with 2194 changes cold and 2883 from rows
+    // of another state and other feet.
+    assert!(most < 1e-12 && bound > 300, "{most} {bound} {changes:?}");
 }
 
 #[test]
@@ -72,7 +73,6 @@ fn a_cap_unloads_a_foot() {
             assert!(force > 4.0, "{force}");
         }
     }
-    println!("{most}");
-    // It gives way by a thousandth of what it costs.
-    assert!(most < 1.0, "{most}");
+    // Measured: 0.018 N, a thousandth of what it costs.
+    assert!(most < 0.05, "{most}");
 }
