@@ -27,6 +27,11 @@ pub fn walk() -> Value {
     parse(include_str!("vectors/walk_vectors.json"))
 }
 
+/// The biped with feet that press or swing, made by `vectors/motion_vectors.py` with MuJoCo and DAQP.
+pub fn motion() -> Value {
+    parse(include_str!("vectors/motion_vectors.json"))
+}
+
 pub(crate) fn parse(text: &str) -> Value {
     serde_json::from_str(text).expect("the vectors are valid JSON")
 }

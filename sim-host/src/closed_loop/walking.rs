@@ -20,6 +20,10 @@ use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, Wrench};
 use surefoot::walk::{self, PlaneMotion, Planner, StandingRobot, Stature, WalkFault, WalkMemory};
 
+/// A swinging foot's weights over the starting values of core: of 26 pushes in MuJoCo, standing and walking, 19 are
+/// survived with those, 22 with three times, 19 with six times as much.
+const SWING: f64 = 3.0;
+
 /// Planner and controller in precision `T`, with a supervisor unless it is bare.
 pub(super) struct WalkingHost<
     T,
@@ -86,8 +90,14 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
         let standing = body.seen(&start);
         let stature = Stature::measured(&robot, &shape.sides, &standing).expect("a robot on feet");
         // Starting values belong to the height of the centre of mass here.
-        let own = WholeBodySettings::<T, NV>::scaled(stature.height, robot.gravity, FEET);
-        body.settings.motion = MotionWeights::scaled(stature.height, robot.gravity);
+        let own = WholeBodySettings::<T, NV>::walking(stature.height, robot.gravity, FEET);
+        let weights = own.motion;
+        body.settings.motion = MotionWeights {
+            swing_linear: weights.swing_linear * T::of(SWING),
+            swing_angular: weights.swing_angular * T::of(SWING),
+            ..weights
+        };
+        body.settings.limits = own.limits;
         body.settings.posture_gains = own.posture_gains;
         body.settings.rest_rate = own.rest_rate;
         let rotation = standing.central_rotation;
