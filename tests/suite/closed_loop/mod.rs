@@ -17,4 +17,5 @@ mod sensing;
 mod stand;
 mod stops;
 mod supervised;
+mod walks;
 mod welded;
