@@ -27,6 +27,16 @@ pub fn estimates() -> Value {
     parse(include_str!("vectors/estimate_vectors.json"))
 }
 
+/// Steps and ticks of a planner of walks, made by `vectors/walk_vectors.py` with a program in Python.
+pub fn walk() -> Value {
+    parse(include_str!("vectors/walk_vectors.json"))
+}
+
+/// The biped with feet that press or swing, made by `vectors/motion_vectors.py` with MuJoCo and DAQP.
+pub fn motion() -> Value {
+    parse(include_str!("vectors/motion_vectors.json"))
+}
+
 pub(crate) fn parse(text: &str) -> Value {
     serde_json::from_str(text).expect("the vectors are valid JSON")
 }

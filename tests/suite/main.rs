@@ -10,3 +10,4 @@ mod multibody;
 mod precision;
 mod qp;
 mod spatial;
+mod walk;

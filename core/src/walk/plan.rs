@@ -95,6 +95,7 @@ impl<T: Real, const FEET: usize> Planner<T, FEET> {
 
         let seen = Seen::new(&self.stature, observed, next.heading, gait.omega);
         let is_walk = command.walk.is_some();
+        let velocity = next.velocity();
         next.phase = match next.phase {
             Phase::Standing => self.from_standing(&next, &seen, is_walk),
             Phase::Single { stance, elapsed, step, swing } => {
@@ -114,7 +115,7 @@ impl<T: Real, const FEET: usize> Planner<T, FEET> {
                 self.double(&next, &seen, stance, elapsed, old)
             }
         };
-        let motion = self.motion(&next, observed, command.lowered, asked);
+        let motion = self.motion(&next, observed, (velocity, command.lowered), asked);
         if !is_finite(&motion) {
             return Err(WalkFault::Overflow);
         }
@@ -309,9 +310,11 @@ impl<T: Real, const FEET: usize> Planner<T, FEET> {
             let old = seen.point(stance);
             let stance = stance.other();
             memory.steps = memory.steps.wrapping_add(1);
-            speed::corrected(memory, gait, seen.heading, seen.observed.center_of_mass.xy());
             memory.phase = Phase::Double { stance, elapsed: T::zero(), old };
-            return self.double(memory, seen, stance, T::zero(), old);
+            let asked = self.double(memory, seen, stance, T::zero(), old);
+            // Of the next tick on.
+            speed::corrected(memory, gait, seen.heading, seen.observed.center_of_mass.xy());
+            return asked;
         }
         memory.phase = Phase::Single { stance, elapsed, step, swing };
         let periodic = periodic_step(gait, stance, memory.velocity());
@@ -359,11 +362,11 @@ impl<T: Real, const FEET: usize> Planner<T, FEET> {
         &self,
         memory: &WalkMemory<T, FEET>,
         observed: &ObservedMotion<T, FEET>,
-        lowered: T,
+        (velocity, lowered): (Vector2<T>, T),
         asked: Asked<T, FEET>,
     ) -> MotionTask<T, FEET> {
         let gait = &self.gait;
-        let carried = height::carried(gait, &self.stature, memory.velocity(), asked.step, lowered);
+        let carried = height::carried(gait, &self.stature, velocity, asked.step, lowered);
         let [stiffness, damping] = gait.height_gains;
         let error = observed.center_of_mass.z - asked.ground - carried;
         let vertical = -error * stiffness - observed.velocity.z * damping;

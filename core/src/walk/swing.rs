@@ -76,17 +76,17 @@ impl<T: Real> SwingFoot<T> {
         to: &Landing<T>,
         dt: T,
     ) -> FootTask<T> {
-        let unit = T::one() / gait.omega;
-        let last = unit * T::of(LAST);
+        let time = |x: f64| T::of(x) / gait.omega;
+        let last = time(LAST);
         let duration = to.elapsed + to.left;
         let [most_level, most] = MOST_ACCELERATION.map(|x| gravity * T::of(x));
 
         if to.left > last {
-            let time = to.left.max(unit * T::of(FOOT_LAG));
+            let left = to.left;
             let way = to.point - self.position.xy();
             let (v, a) = (self.velocity.xy(), self.acceleration);
-            let jerk = (way * (T::of(60.0) / time) - v * T::of(36.0)) / (time * time)
-                - a * (T::of(9.0) / time);
+            let jerk = (way * (T::of(60.0) / left) - v * T::of(36.0)) / (left * left)
+                - a * (T::of(9.0) / left);
             self.acceleration += jerk * dt;
         } else {
             self.acceleration = -self.velocity.xy() / last;
@@ -100,7 +100,7 @@ impl<T: Real> SwingFoot<T> {
         } else if to.left > last {
             cubic(height, speed, to.ground, gait.landing_speed, to.left)
         } else {
-            (gait.landing_speed - speed) / (unit * T::of(FOOT_LAG))
+            (gait.landing_speed - speed) / time(FOOT_LAG)
         };
         let acceleration =
             Vector3::new(self.acceleration.x, self.acceleration.y, vertical.clamp(-most, most));
@@ -113,8 +113,8 @@ impl<T: Real> SwingFoot<T> {
         }
 
         let [stiffness, damping] = gait.foot_gains;
-        let time = (duration - last).max(unit * T::of(LEAST_TURN));
-        let share = (to.elapsed / time).min(T::one());
+        let turning = (duration - last).max(time(LEAST_TURN));
+        let share = (to.elapsed / turning).min(T::one());
         let sole = self.yaw + wrapped(to.yaw - self.yaw) * share;
         FootTask::Swing {
             linear: acceleration

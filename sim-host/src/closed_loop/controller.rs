@@ -6,7 +6,7 @@ use super::firmware::LinkError;
 use super::gait::GaitTally;
 use super::limiting::{LimitTally, Limiting};
 use super::supervised::SupervisedController;
-use super::walking::WalkingHost;
+use super::walking::{WalkingHost, walking_limits};
 use super::whole_body::{SupervisedWholeBody, WholeBodyHost};
 use crate::plant::PlantState;
 use crate::record::SupervisorMemory;
@@ -243,7 +243,7 @@ fn walking(scene: &Scene, scalar: Scalar, is_supervised: bool) -> Box<dyn Contro
     let robot = scene.robot();
     macro_rules! of_rows {
         ($tree:expr, $rows:ident) => {{
-            let limits = robot.limits.in_rows::<$rows>();
+            let limits = walking_limits(&robot.limits).in_rows::<$rows>();
             let limits = limits.filter(|_| is_supervised);
             match scalar {
                 Scalar::F32 => {

@@ -8,7 +8,7 @@ use super::supervised::{recorded, remembered};
 use super::whole_body::{WholeBodyHost, padded};
 use crate::plant::PlantState;
 use crate::record;
-use crate::robot::{LEG, WalkerShape, with_tree};
+use crate::robot::{LEG, Limits, WalkerShape, with_tree};
 use crate::scene::{Scene, WalkCommand};
 use nalgebra::{Vector2, Vector3};
 use surefoot::Real;
@@ -47,6 +47,21 @@ pub(super) fn asked<T: Real>(commands: &[WalkCommand], time_s: f64) -> walk::Wal
         turning_rate: T::of(command.turn_deg_per_s.to_radians()),
     });
     walk::WalkCommand { walk, lowered: T::of(now.map_or(0.0, |c| c.lowered_m)) }
+}
+
+/// A swinging foot's weights over the starting values of core: of 26 pushes in MuJoCo, standing and walking, 19 are
+/// survived with those, 22 with three times, 19 with six times as much.
+const SWING: f64 = 3.0;
+
+/// Rates that are believed of a robot that walks, over what its motors reach: a sole that lands on an edge turns
+/// the ankle faster for a tick (G1's at 39 rad/s, its motor 30; Go1's calf 20.5 and 20.06).
+const LANDING: f64 = 2.0;
+
+/// What the supervisor of a robot that walks allows.
+pub(super) fn walking_limits(standing: &Limits) -> Limits {
+    let mut limits = standing.clone();
+    limits.joints.iter_mut().for_each(|joint| joint.rate *= LANDING);
+    limits
 }
 
 /// Planner and controller in precision `T`, with a supervisor unless it is bare.
@@ -115,8 +130,14 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
         let standing = body.seen(&start);
         let stature = Stature::measured(&robot, &shape.sides, &standing).expect("a robot on feet");
         // Starting values belong to the height of the centre of mass here.
-        let own = WholeBodySettings::<T, NV>::scaled(stature.height, robot.gravity, FEET);
-        body.settings.motion = MotionWeights::scaled(stature.height, robot.gravity);
+        let own = WholeBodySettings::<T, NV>::walking(stature.height, robot.gravity, FEET);
+        let weights = own.motion;
+        body.settings.motion = MotionWeights {
+            swing_linear: weights.swing_linear * T::of(SWING),
+            swing_angular: weights.swing_angular * T::of(SWING),
+            ..weights
+        };
+        body.settings.limits = own.limits;
         body.settings.posture_gains = own.posture_gains;
         body.settings.rest_rate = own.rest_rate;
         let rotation = standing.central_rotation;

@@ -10,10 +10,11 @@
 use core::hint::black_box;
 use nalgebra::Vector3;
 use surefoot::balance::{
-    ContactLimits, ContactPatch, Controller, FootLimits, Gains, Ground, LeggedRobot, LimitMemory,
-    Reference, RobotState, Sole, Supervisor, WholeBody, WholeBodyController, WholeBodyFoot,
-    WholeBodyMemory, WholeBodySettings, WholeBodyState, WorkspaceForm, WrenchLimits, limited_tick,
-    tick, whole_body_tick,
+    ContactLimits, ContactPatch, Controller, FootLimits, FootTask, Gains, Ground, LeggedRobot,
+    LimitMemory, LinearTask, MotionTask, Reference, RobotState, Sole, Supervisor, WholeBody,
+    WholeBodyController, WholeBodyFoot, WholeBodyMemory, WholeBodySettings, WholeBodyState,
+    WorkspaceForm, WrenchLimits, limited_tick, observe, tick, whole_body_motion_tick,
+    whole_body_tick,
 };
 use surefoot::disturbance::{
     DisturbanceObserver, DisturbanceSettings, ForceContact, ForceThresholds, friction_compensation,
@@ -90,6 +91,40 @@ pub fn opaque_limited_tick() {
 /// A tick of the whole-body controller, of a robot and a memory of anything.
 #[inline(always)]
 pub fn opaque_whole_body_tick() {
+    with_whole_body(|controller, state, memory| {
+        let (_, wanted) = crouching();
+        let contacts = black_box([true; 4]);
+        let answer = whole_body_tick(controller, state, &wanted, &contacts, memory);
+        let _ = black_box((answer, memory));
+    });
+}
+
+/// The same of one whose feet press or swing, with the motion that it reports.
+#[inline(always)]
+pub fn opaque_motion_tick() {
+    with_whole_body(|controller, state, memory| {
+        let Ok(observed) = observe(controller, state) else { return };
+        let motion = black_box(observed.motion(controller));
+        let swing = FootTask::Swing { linear: Vector3::zeros(), angular: Vector3::zeros() };
+        let press = FootTask::Press { most_force: 100.0 };
+        let linear =
+            LinearTask::CenterOfPressure { point: [0.0; 2], vertical: 0.0, per_length: 12.0 };
+        let feet = [press, swing, press, swing];
+        let task = black_box(MotionTask { linear, angular: Vector3::zeros(), feet });
+        let answer = whole_body_motion_tick(controller, &observed, &task, memory);
+        let _ = black_box((motion, answer, memory));
+    });
+}
+
+/// Plays with a controller, state and memory of anything.
+#[inline(always)]
+fn with_whole_body(
+    play: impl FnOnce(
+        &WholeBodyController<'_, f32, 13, 19, 18, 4>,
+        &WholeBodyState<f32, 19, 18>,
+        &mut WholeBodyMemory<f32>,
+    ),
+) {
     let patch = black_box(ContactPatch::sole([-0.2, 0.05], [-0.05, 0.05], -0.06));
     let limits = ContactLimits {
         least_force: 5.0,
@@ -110,11 +145,8 @@ pub fn opaque_whole_body_tick() {
     let controller =
         WholeBodyController { tree, robot: black_box(&robot), settings: black_box(&settings) };
     let state = black_box(WholeBodyState { positions: [0.1; 19], velocities: [0.1; 18] });
-    let (_, wanted) = crouching();
     let mut memory = black_box(WholeBodyMemory::of([(130_u8, 1.0_f32); 30]));
-    let contacts = black_box([true; 4]);
-    let answer = whole_body_tick(&controller, &state, &wanted, &contacts, &mut memory);
-    let _ = black_box((answer, memory));
+    play(&controller, &state, &mut memory);
 }
 
 /// An observer of disturbances, of a robot and a memory of anything, with a check of contacts and joints whose

@@ -4,6 +4,7 @@
 mod dynamics;
 mod hostile;
 mod limits;
+mod motion;
 mod singular;
 mod six_joints;
 

@@ -18,4 +18,5 @@ mod sensing;
 mod stand;
 mod stops;
 mod supervised;
+mod walks;
 mod welded;

@@ -42,9 +42,10 @@ pub(super) fn leg_inverse<T: Real>(
     let columns = columns.get(..count)?;
     let (zero, one) = (T::zero(), T::one());
     let mut square = [[zero; DIRECTIONS]; DIRECTIONS];
+    // Its lower triangle, which is all that is read.
     for column in columns {
-        for (row, x) in square.iter_mut().zip(column) {
-            for (entry, y) in row.iter_mut().zip(column) {
+        for (i, (row, x)) in square.iter_mut().zip(column).enumerate() {
+            for (entry, y) in row.iter_mut().zip(column).take(i + 1) {
                 *entry += *x * *y;
             }
         }

@@ -45,7 +45,6 @@ pub struct ObservedBody<T, const N: usize, const NQ: usize, const NV: usize> {
 ///
 /// # Cost
 /// Kinematics and mass matrix of the tree: about half of a tick.
-#[inline]
 pub fn observe<T: Real, const N: usize, const NQ: usize, const NV: usize, const FEET: usize>(
     controller: &WholeBodyController<'_, T, N, NQ, NV, FEET>,
     state: &WholeBodyState<T, NQ, NV>,
@@ -78,7 +77,6 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> ObservedBody<T, 
     ///
     /// # Cost
     /// About `12 NV + 150` multiplications for each foot.
-    #[inline]
     pub fn motion<const FEET: usize>(
         &self,
         controller: &WholeBodyController<'_, T, N, NQ, NV, FEET>,

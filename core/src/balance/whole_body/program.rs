@@ -21,7 +21,7 @@ use crate::spatial::{Twist, Wrench};
 use nalgebra::Vector3;
 
 /// Number of the first row of a torque.
-const TORQUES: u8 = 128;
+pub(super) const TORQUES: u8 = 128;
 /// Velocities of the central body.
 const BASE: usize = 6;
 

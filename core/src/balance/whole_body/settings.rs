@@ -41,6 +41,13 @@ impl<T: Real, const NV: usize> WholeBodySettings<T, NV> {
         20 * change as Work
     }
 
+    /// The same for ticks whose feet may swing.
+    pub const fn most_motion_work(feet: usize) -> Work {
+        let joints = NV.saturating_sub(6);
+        let change = 240 + 430 * feet + 12 * joints;
+        20 * change as Work
+    }
+
     /// Documented starting values for a robot whose central body stands at the height `z` (m) above its
     /// feet under gravity `g` (m/s²), by `ω = √(g/z)`: body `10 ω²` and `5.2 ω`, posture the same, feet
     /// to rest at `5.8 ω`, a moment in a force's weight at `z`. Posture zero, torques without limit.
@@ -71,6 +78,13 @@ impl<T: Real, const NV: usize> WholeBodySettings<T, NV> {
             limits: Settings { work: Self::most_work(feet), ..Settings::new(T::of(1e-3)) },
             damping: T::of(0.01),
         }
+    }
+
+    /// The same for [`whole_body_motion_tick`](super::whole_body_motion_tick): what that may spend.
+    pub fn walking(height: T, gravity: T, feet: usize) -> Self {
+        let scaled = Self::scaled(height, gravity, feet);
+        let limits = Settings { work: Self::most_motion_work(feet), ..scaled.limits };
+        Self { limits, ..scaled }
     }
 
     /// Whether every number can be.

@@ -24,19 +24,21 @@ pub(super) struct MotionFoot<T> {
 pub(super) struct Moved<T, const FEET: usize> {
     /// `X`
     pub base: Twist<T>,
-    /// `δ_i`, by the leg's joints.
-    pub legs: [[T; MOST_LEG_JOINTS]; FEET],
     /// `G_i w_i`; zero for those that swing.
     pub on_base: [Wrench<T>; FEET],
+    /// `J_i⁺ d_i`, by the leg's joints; zero for those that press.
+    pub legs: [[T; MOST_LEG_JOINTS]; FEET],
 }
 
-/// `P`, and what (1) to (3) read.
+/// `B` and `P`, and what (1) to (3) read.
 pub(super) struct MotionDynamics<'a, T, const FEET: usize, const NV: usize> {
     pub robot: &'a WholeBody<T, FEET, NV>,
     pub feet: &'a [Option<MotionFoot<T>>; FEET],
     masses: &'a [[T; NV]; NV],
     screws: &'a [Twist<T>; NV],
     bias: [T; NV],
+    /// `B_k`, by velocity.
+    rows: [Wrench<T>; NV],
     base: Square<T>,
 }
 
@@ -61,29 +63,52 @@ impl<'a, T: Real, const FEET: usize, const NV: usize> MotionDynamics<'a, T, FEET
         screws: &'a [Twist<T>; NV],
         bias: [T; NV],
     ) -> Option<Self> {
-        let mut base = [[T::zero(); 6]; 6];
-        for (to, row) in base.iter_mut().zip(masses) {
-            *to = base_entries(row);
-        }
-        for foot in feet.iter().flatten() {
-            let Contact { joints, per_base, count, .. } = &foot.contact;
-            for (joint, per_base) in joints.iter().zip(per_base).take(*count) {
-                let masses = masses.get(*joint).map_or([T::zero(); 6], base_entries);
-                let per_base = per_base.to_array();
-                for (row, mass) in base.iter_mut().zip(masses) {
-                    for (to, x) in row.iter_mut().zip(per_base) {
-                        *to += mass * x;
-                    }
+        let mut rows = [Wrench::zero(); NV];
+        for (velocity, (row, masses)) in rows.iter_mut().zip(masses).enumerate() {
+            let coupled = match robot.joints.get(velocity) {
+                Some(Some(joint)) => joint.coupled,
+                _ if velocity < 6 => u8::MAX,
+                _ => continue,
+            };
+            *row = Wrench::from_array(base_entries(masses));
+            for (number, foot) in feet.iter().enumerate() {
+                let Some(foot) = foot.as_ref().filter(|_| has(coupled, number)) else { continue };
+                let Contact { joints, per_base, count, .. } = &foot.contact;
+                for (joint, per_base) in joints.iter().zip(per_base).take(*count) {
+                    *row += *per_base * masses.get(*joint).copied().unwrap_or(T::zero());
                 }
             }
         }
+        let mut base = [[T::zero(); 6]; 6];
+        for (to, row) in base.iter_mut().zip(&rows) {
+            *to = row.to_array();
+        }
         let most = base.iter().flatten().fold(T::zero(), |most, x| most.max(x.abs()));
         let base = Square::new(base, most * T::default_epsilon() * T::of(4.0))?;
-        Some(Self { robot, feet, masses, screws, bias, base })
+        Some(Self { robot, feet, masses, screws, bias, rows, base })
     }
 
-    /// (2) and (1).
+    /// `X` where all unknowns are zero.
     #[inline(always)]
+    pub fn free(&self) -> Twist<T> {
+        let mut right = [T::zero(); 6];
+        for (to, bias) in right.iter_mut().zip(&self.bias) {
+            *to = -*bias;
+        }
+        Twist::from_array(self.base.solve(&right))
+    }
+
+    /// (3) of a joint where all unknowns are zero, from that X.
+    #[inline(always)]
+    pub fn free_torque(&self, velocity: usize, free: Twist<T>) -> T {
+        match (self.rows.get(velocity), self.bias.get(velocity)) {
+            (Some(row), Some(bias)) => free.power(*row) + *bias,
+            _ => T::zero(),
+        }
+    }
+
+    /// (2)
+    #[inline(never)]
     pub fn moved(&self, x: &[Unknowns<T>; FEET]) -> Moved<T, FEET> {
         let mut right = [T::zero(); 6];
         for (to, bias) in right.iter_mut().zip(&self.bias) {
@@ -110,40 +135,49 @@ impl<'a, T: Real, const FEET: usize, const NV: usize> MotionDynamics<'a, T, FEET
                 }
             }
         }
-        let base = Twist::from_array(self.base.solve(&right));
+        Moved { base: Twist::from_array(self.base.solve(&right)), on_base, legs }
+    }
+
+    /// `δ_i` of (1), by the leg's joints.
+    #[inline(always)]
+    pub fn legs(&self, moved: &Moved<T, FEET>) -> [[T; MOST_LEG_JOINTS]; FEET] {
+        let mut legs = moved.legs;
         for (foot, leg) in self.feet.iter().zip(&mut legs) {
             let Some(foot) = foot else { continue };
             for (to, row) in leg.iter_mut().zip(&foot.contact.per_base).take(foot.contact.count) {
-                *to += base.power(*row);
+                *to += moved.base.power(*row);
             }
         }
-        Moved { base, legs, on_base }
+        legs
     }
 
-    /// (3)
-    #[inline(always)]
-    pub fn torque(&self, velocity: usize, moved: &Moved<T, FEET>) -> T {
-        let (Some(row), Some(bias), Some(Some(joint))) =
-            (self.masses.get(velocity), self.bias.get(velocity), self.robot.joints.get(velocity))
-        else {
-            return T::zero();
-        };
-        let mut torque = moved.base.power(Wrench::from_array(base_entries(row))) + *bias;
-        let mut outboard = Wrench::zero();
-        let feet = self.feet.iter().zip(&moved.legs).zip(&moved.on_base).enumerate();
-        for (number, ((foot, leg), on_base)) in feet {
+    /// (3), by velocity.
+    #[inline(never)]
+    pub fn torques(&self, moved: &Moved<T, FEET>) -> [T; NV] {
+        let mut torques = self.bias;
+        for (torque, row) in torques.iter_mut().zip(&self.rows).skip(6) {
+            *torque += moved.base.power(*row);
+        }
+        let feet = self.feet.iter().zip(moved.on_base.iter().zip(&moved.legs));
+        for (number, (foot, (on_base, leg))) in feet.enumerate() {
             let Some(foot) = foot else { continue };
-            if has(joint.coupled, number) {
-                torque += along_leg(row, &foot.contact, leg);
-            }
-            if has(joint.feet, number) {
-                outboard += *on_base;
+            if foot.limits.is_some() {
+                let joints = self.robot.joints.iter().zip(self.screws);
+                for (torque, (joint, screw)) in torques.iter_mut().zip(joints).skip(6) {
+                    if joint.is_some_and(|joint| has(joint.feet, number)) {
+                        *torque -= screw.power(*on_base);
+                    }
+                }
+            } else {
+                let joints = self.robot.joints.iter().zip(self.masses);
+                for (torque, (joint, masses)) in torques.iter_mut().zip(joints).skip(6) {
+                    if joint.is_some_and(|joint| has(joint.coupled, number)) {
+                        *torque += along_leg(masses, &foot.contact, leg);
+                    }
+                }
             }
         }
-        match self.screws.get(velocity) {
-            Some(screw) if joint.feet != 0 => torque - screw.power(outboard),
-            _ => torque,
-        }
+        torques
     }
 
     /// What `y · P X` is per unknown.
@@ -155,17 +189,7 @@ impl<'a, T: Real, const FEET: usize, const NV: usize> MotionDynamics<'a, T, FEET
     /// What (3) is per unknown.
     #[inline(always)]
     pub fn torque_per_unknown(&self, velocity: usize) -> Option<[Unknowns<T>; FEET]> {
-        let row = self.masses.get(velocity)?;
-        let joint = self.robot.joints.get(velocity)?.as_ref()?;
-        let mut of_base = Wrench::from_array(base_entries(row));
-        for (number, foot) in self.feet.iter().enumerate() {
-            let Some(foot) = foot.as_ref().filter(|_| has(joint.coupled, number)) else { continue };
-            let Contact { joints, per_base, count, .. } = &foot.contact;
-            for (joint, per_base) in joints.iter().zip(per_base).take(*count) {
-                of_base += *per_base * row.get(*joint).copied().unwrap_or(T::zero());
-            }
-        }
-        let y = self.for_base(&of_base.to_array());
+        let y = self.for_base(&self.rows.get(velocity)?.to_array());
         Some(self.gradient(&y, Some(velocity)))
     }
 
@@ -176,7 +200,7 @@ impl<'a, T: Real, const FEET: usize, const NV: usize> MotionDynamics<'a, T, FEET
     }
 
     /// Of `y · P X`, and of what (3) has beside X for a joint.
-    #[inline(always)]
+    #[inline(never)]
     fn gradient(&self, y: &Twist<T>, direct: Option<usize>) -> [Unknowns<T>; FEET] {
         let joint = direct.and_then(|velocity| self.robot.joints.get(velocity)?.as_ref());
         let row = direct.and_then(|velocity| self.masses.get(velocity));
@@ -207,7 +231,7 @@ impl<'a, T: Real, const FEET: usize, const NV: usize> MotionDynamics<'a, T, FEET
     }
 }
 
-/// `M_ki δ_i`
+/// `M_ki J_i⁺ d_i`
 #[inline(always)]
 fn along_leg<T: Real, const NV: usize>(
     row: &[T; NV],

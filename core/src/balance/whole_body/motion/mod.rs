@@ -14,10 +14,9 @@
 //! is wanted, `w_i` its wrench in sole axes; `J⁺`, `J_b` of the contacts; `M` mass matrix, `h` inverse
 //! dynamics at `θ̈₁`, index b for the central body's rows, i for those of leg i's joints.
 //! ```text
-//! δ_i = J_i⁺ (d_i − J_b,i X)                                                       (1)
-//! P X + z = Σ_press G_i w_i − Σ_swing M_bi J_i⁺ d_i,
-//!     P = M_bb − Σ M_bi J_i⁺ J_b,i,   z = h_b                                      (2)
-//! τ_k = M_kb X + Σ M_ki δ_i + h_k − Σ_{pressing feet outboard of k} s_k · G_i w_i   (3)
+//! δ_i = J_i⁺ (d_i − J_b,i X),     B = M_b − Σ M_i J_i⁺ J_b,i   (M_b, M_i: columns)  (1)
+//! P X + z = Σ_press G_i w_i − Σ_swing M_bi J_i⁺ d_i,     P = B_b,   z = h_b         (2)
+//! τ_k = B_k X + Σ_swing M_ki J_i⁺ d_i + h_k − Σ_{press, outboard of k} s_k · G_i w_i (3)
 //! ```
 //! What is minimised, with x the unknowns of all feet:
 //! ```text
@@ -27,6 +26,22 @@
 //! [`ContactProgram`](crate::balance::ContactProgram), and limits give way alike. Where the centre of
 //! pressure is the task, `c̈ − c̈*` is horizontally `κ/(m g)` times the moment of the ground's forces about
 //! it ([`LinearTask`](super::LinearTask)), each taken at its foot's own height.
+//!
+//! # Cost
+//! The biped in f32, instructions of a Cortex-M4F (and of x86): [`observe`](super::observe) 28 600
+//! (21 400), the planner's view of it 1 400 (1 300), the tick 41 000 to 44 000 (30 400) while no limit is in
+//! force, and about 5 800 (4 600) for each that comes or goes. Stack of the tick 12.3 KB beside an
+//! [`ObservedBody`](super::ObservedBody) of 3.6 KB.
+//!
+//! # Accuracy
+//! In f32, of 800 harsh states of the biped, a third of them with limits in force: torques within 0.03 N·m
+//! of f64's.
+//!
+//! # Sources
+//! Centre of pressure as the task: as in walking by the angular momentum about the contact (Gong and
+//! Grizzle 2020); wrenches and accelerations of feet as the unknowns of one program, as in task-space
+//! inverse dynamics (Sentis and Khatib 2005; Herzog et al., *Auton. Robots* 40, 2016); the inverse of a
+//! sum by a small one, Woodbury 1950.
 
 mod dynamics;
 mod objective;

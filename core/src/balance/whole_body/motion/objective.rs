@@ -17,7 +17,7 @@ use crate::Real;
 use crate::balance::LinearTask;
 use crate::balance::whole_body::MotionTask;
 use crate::qp::Ldl;
-use crate::spatial::Wrench;
+use crate::spatial::{Twist, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
 /// What counts how much where not all can be had.
@@ -38,9 +38,10 @@ pub struct MotionWeights<T> {
 }
 
 impl<T: Real> MotionWeights<T> {
-    /// Starting values for a centre of mass at the height `z` (m) under gravity `g` (m/s²): λ = 1,
-    /// α = 0.015 z², a fifth of a swinging foot's σ = 0.05 times its own ρ = 0.0074 z²; ε = 0.01 for a
-    /// force of m g/7.3, ℓ = z/8.2.
+    /// Starting values for a centre of mass at the height `z` (m) under gravity `g` (m/s²). With
+    /// z₀ = 0.82 m: λ = 1, α = 0.01 (z/z₀)², σ = 0.05, ρ = 0.005 (z/z₀)², and ε such that a force of
+    /// m g/7.3 counts as 0.1 m/s²; ℓ = z/8.2. A weight of a swinging foot above some tenths takes the
+    /// ground's force for it; one of the trunk above α keeps it more level, and takes from pushes.
     pub fn scaled(height: T, gravity: T) -> Self {
         let square = height * height;
         Self {
@@ -77,13 +78,14 @@ pub(super) struct Objective<T, const FEET: usize> {
 }
 
 impl<T: Real, const FEET: usize> Objective<T, FEET> {
-    /// `None` where a number is not finite.
-    #[inline(always)]
+    /// `free` is X where all unknowns are zero. `None` where a number is not finite.
+    #[inline(never)]
     pub fn new<const NV: usize>(
         dynamics: &MotionDynamics<'_, T, FEET, NV>,
         weights: &MotionWeights<T>,
         around: &Surroundings<'_, T>,
         task: &MotionTask<T, FEET>,
+        free: Twist<T>,
     ) -> Option<Self> {
         let (zero, one) = (T::zero(), T::one());
         let mass = around.mass;
@@ -102,8 +104,7 @@ impl<T: Real, const FEET: usize> Objective<T, FEET> {
                 }
             }
         }
-        let free = dynamics.moved(&[[zero; DIRECTIONS]; FEET]).base.angular;
-        let wanted = (around.central.tr_mul(&task.angular) - free) * angular;
+        let wanted = (around.central.tr_mul(&task.angular) - free.angular) * angular;
         let goal = linear_goal(&task.linear, around) * linear;
         let goal = [goal.x, goal.y, goal.z, wanted.x, wanted.y, wanted.z];
         for ((columns, inverse), foot) in columns.iter_mut().zip(&mut inverse).zip(dynamics.feet) {
@@ -153,7 +154,7 @@ impl<T: Real, const FEET: usize> Objective<T, FEET> {
     }
 
     /// (2)
-    #[inline(always)]
+    #[inline(never)]
     pub fn response(&self, gradient: &[Unknowns<T>; FEET]) -> [Unknowns<T>; FEET] {
         let mut scaled = *gradient;
         let mut task = [T::zero(); 6];

@@ -3,13 +3,13 @@
 
 use super::super::WholeBodyLimit;
 use super::super::leg_inverse::DIRECTIONS;
-use super::super::program::{joints, torque_row, worst};
+use super::super::program::{TORQUES, torque_row, worst};
 use super::dynamics::{MotionDynamics, Unknowns};
 use super::objective::Objective;
 use crate::Real;
 use crate::balance::contact_wrenches::{first_row, greatest, reliefs, split_row};
 use crate::qp::{ActiveRows, Program, ProgramCost, Search, Work};
-use crate::spatial::Wrench;
+use crate::spatial::{Twist, Wrench};
 
 /// The program of one tick.
 pub(super) struct MotionProgram<'a, T, const FEET: usize, const NV: usize> {
@@ -17,6 +17,8 @@ pub(super) struct MotionProgram<'a, T, const FEET: usize, const NV: usize> {
     pub objective: &'a Objective<T, FEET>,
     /// Greatest torques.
     pub torques: &'a [T; NV],
+    /// `X` where all unknowns are zero.
+    pub free: Twist<T>,
 }
 
 /// A row's normal, in sole axes.
@@ -58,9 +60,9 @@ impl<T: Real, const FEET: usize, const NV: usize> Program<T> for MotionProgram<'
         ProgramCost {
             factor: 0,
             response: 36 + 84 * feet,
-            row: 72 + 120 * feet,
+            row: 36 + 80 * feet,
             product: 6 * feet,
-            scan: 36 + 180 * feet + 18 * joints,
+            scan: 36 + 110 * feet + 12 * joints,
         }
     };
 
@@ -104,7 +106,7 @@ impl<T: Real, const FEET: usize, const NV: usize> Program<T> for MotionProgram<'
             let limit = *self.torques.get(velocity)?;
             let mut normal = self.dynamics.torque_per_unknown(velocity)?;
             normal.as_flattened_mut().iter_mut().for_each(|x| *x *= sign);
-            let free = self.dynamics.torque(velocity, &self.dynamics.moved(&self.zero()));
+            let free = self.dynamics.free_torque(velocity, self.free);
             return Some((Normal::OnAll(normal), -limit - free * sign));
         }
         let (foot, own) = split_row(row);
@@ -151,10 +153,12 @@ impl<T: Real, const FEET: usize, const NV: usize> Program<T> for MotionProgram<'
                 limits.scan_contact(&Wrench::from_array(*x), first_row(number), search);
             }
         }
-        let moved = self.dynamics.moved(x);
-        for (velocity, _, limit, row) in joints(self.dynamics.robot, self.torques) {
-            let torque = self.dynamics.torque(velocity, &moved);
-            search.offer_pair(limit, torque, [row, row.wrapping_add(1)]);
+        let torques = self.dynamics.torques(&self.dynamics.moved(x));
+        let joints = self.dynamics.robot.joints.iter().zip(self.torques).zip(&torques);
+        for (((joint, limit), torque), row) in joints.skip(6).zip((TORQUES..=u8::MAX).step_by(2)) {
+            if joint.is_some() {
+                search.offer_pair(*limit, *torque, [row, row.wrapping_add(1)]);
+            }
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::super::contact::{Asked, Contact, Place};
 use super::super::measured::first3;
+
 use super::super::observed::ObservedBody;
 use super::super::report::WholeBodyReport;
 use super::super::robot::Leg;
@@ -14,7 +15,7 @@ use super::program::MotionProgram;
 use crate::Real;
 use crate::balance::{ContactLimits, Fault, Input};
 use crate::dynamics::inverse_dynamics;
-use crate::qp::solve;
+use crate::qp::{Settings, solve};
 use crate::spatial::{Quaternion, Twist, Wrench};
 use nalgebra::Vector3;
 
@@ -33,7 +34,6 @@ use nalgebra::Vector3;
 /// # Cost
 /// Inverse dynamics of the tree, about 2000 multiplications a foot, and at most `settings.limits.work` on
 /// limits. No allocation, no panic.
-#[inline]
 pub fn whole_body_motion_tick<
     T: Real,
     const N: usize,
@@ -50,29 +50,10 @@ pub fn whole_body_motion_tick<
     if !is_finite(task) {
         return Err(Fault::NotFinite(Input::Reference));
     }
-    let ObservedBody { state, central, poses, kinematics, screws, masses, .. } = observed;
-
+    let ObservedBody { state, central, poses, screws, masses, .. } = observed;
     let mut accelerations = observed.accelerations;
     let mut feet = [None; FEET];
-    for ((place, leg), task) in feet.iter_mut().zip(&robot.legs).zip(&task.feet) {
-        let Some(leg) = leg else { continue };
-        let body = kinematics.get(leg.foot.body).ok_or(Fault::NotHeld)?;
-        let of_leg = leg.joints.map(|joint| screws.get(joint).copied().unwrap_or(Twist::zero()));
-        let from = Place { central: &central.rotation, body, screws: of_leg };
-        let asked = match task {
-            FootTask::Press { .. } => Asked::Rest(settings.rest_rate),
-            FootTask::Swing { linear, angular } => {
-                Asked::Move { linear: *linear, angular: *angular }
-            }
-        };
-        let contact = Contact::new(leg, &from, &asked, settings.damping).ok_or(Fault::Overflow)?;
-        for (joint, more) in contact.joints.iter().zip(contact.correction()).take(contact.count) {
-            if let Some(to) = accelerations.get_mut(*joint) {
-                *to += more;
-            }
-        }
-        *place = Some(MotionFoot { contact, limits: limits(leg, task) });
-    }
+    set_feet(controller, observed, task, &mut accelerations, &mut feet)?;
     let bias = inverse_dynamics(tree, poses, &state.velocities, &accelerations, None);
     if !bias.iter().all(|x| x.is_finite()) {
         return Err(Fault::Overflow);
@@ -84,16 +65,17 @@ pub fn whole_body_motion_tick<
         gravity: tree.gravity,
         mass: robot.mass,
     };
-    let objective = Objective::new(&dynamics, &settings.motion, &around, task);
+    let free = dynamics.free();
+    let objective = Objective::new(&dynamics, &settings.motion, &around, task, free);
     let objective = objective.ok_or(Fault::Overflow)?;
-    let program =
-        MotionProgram { dynamics: &dynamics, objective: &objective, torques: &settings.torques };
-    let active = &mut memory.active;
-    let solution = solve(&program, active, &settings.limits).map_err(|_| Fault::Overflow)?;
-
+    let program = MotionProgram {
+        dynamics: &dynamics,
+        objective: &objective,
+        torques: &settings.torques,
+        free,
+    };
     let mut limits = WholeBodyReport::free();
-    limits.fill(&solution, active, program.worst(&solution.x, active));
-    let x = &solution.x;
+    let x = &within(&program, &settings.limits, memory, &mut limits)?;
     let moved = dynamics.moved(x);
     let sum = |all: &[Unknowns<T>; FEET]| {
         let feet = feet.iter().zip(all);
@@ -116,7 +98,8 @@ pub fn whole_body_motion_tick<
     for (to, x) in command.accelerations.iter_mut().zip(moved.base.to_array()) {
         *to = x;
     }
-    for (number, ((foot, leg), x)) in feet.iter().zip(&moved.legs).zip(x).enumerate() {
+    let legs = dynamics.legs(&moved);
+    for (number, ((foot, leg), x)) in feet.iter().zip(&legs).zip(x).enumerate() {
         let Some(MotionFoot { contact, limits }) = foot else { continue };
         for (joint, more) in contact.joints.iter().zip(leg).take(contact.count) {
             if let Some(to) = command.accelerations.get_mut(*joint) {
@@ -141,10 +124,10 @@ pub fn whole_body_motion_tick<
             *place = Some(left);
         }
     }
+    let asked = dynamics.torques(&moved);
     let motors = command.torques.iter_mut().zip(&robot.joints).zip(&settings.torques);
-    for (velocity, ((torque, joint), limit)) in motors.enumerate() {
+    for (((torque, joint), limit), asked) in motors.zip(asked) {
         if joint.is_some() {
-            let asked = dynamics.torque(velocity, &moved);
             if !asked.is_finite() {
                 return Err(Fault::Overflow);
             }
@@ -152,6 +135,54 @@ pub fn whole_body_motion_tick<
         }
     }
     Ok(command)
+}
+
+/// The feet's contacts, and on the posture's accelerations what makes their feet accelerate as wanted. A
+/// function of its own, like [`within`], so that its numbers leave the stack.
+#[inline(never)]
+fn set_feet<T: Real, const N: usize, const NQ: usize, const NV: usize, const FEET: usize>(
+    controller: &WholeBodyController<'_, T, N, NQ, NV, FEET>,
+    observed: &ObservedBody<T, N, NQ, NV>,
+    task: &MotionTask<T, FEET>,
+    accelerations: &mut [T; NV],
+    feet: &mut [Option<MotionFoot<T>>; FEET],
+) -> Result<(), Fault> {
+    let WholeBodyController { robot, settings, .. } = controller;
+    let ObservedBody { central, kinematics, screws, .. } = observed;
+    for ((place, leg), task) in feet.iter_mut().zip(&robot.legs).zip(&task.feet) {
+        let Some(leg) = leg else { continue };
+        let body = kinematics.get(leg.foot.body).ok_or(Fault::NotHeld)?;
+        let of_leg = leg.joints.map(|joint| screws.get(joint).copied().unwrap_or(Twist::zero()));
+        let from = Place { central: &central.rotation, body, screws: of_leg };
+        let asked = match task {
+            FootTask::Press { .. } => Asked::Rest(settings.rest_rate),
+            FootTask::Swing { linear, angular } => {
+                Asked::Move { linear: *linear, angular: *angular }
+            }
+        };
+        let contact = Contact::new(leg, &from, &asked, settings.damping).ok_or(Fault::Overflow)?;
+        for (joint, more) in contact.joints.iter().zip(contact.correction()).take(contact.count) {
+            if let Some(to) = accelerations.get_mut(*joint) {
+                *to += more;
+            }
+        }
+        *place = Some(MotionFoot { contact, limits: limits(leg, task) });
+    }
+    Ok(())
+}
+
+/// The unknowns within limits, and what is reported of them.
+#[inline(never)]
+fn within<T: Real, const FEET: usize, const NV: usize>(
+    program: &MotionProgram<'_, T, FEET, NV>,
+    settings: &Settings<T>,
+    memory: &mut WholeBodyMemory<T>,
+    report: &mut WholeBodyReport<T, FEET>,
+) -> Result<[Unknowns<T>; FEET], Fault> {
+    let active = &mut memory.active;
+    let solution = solve(program, active, settings).map_err(|_| Fault::Overflow)?;
+    report.fill(&solution, active, program.worst(&solution.x, active));
+    Ok(solution.x)
 }
 
 /// What the ground can give a foot with this task; `None` where it swings. A cap leaves room above the

@@ -1,0 +1,50 @@
+//! The biped walks: on command, at the commanded speed, and to standing again.
+
+use surefoot_sim::closed_loop::{self, Run, Scalar, controller};
+use surefoot_sim::scene::{Feet, Scene, load};
+
+fn play(scene: &Scene, scalar: Scalar) -> Run {
+    closed_loop::run(scene, controller(scene, scalar).as_mut(), &mut |_| {})
+}
+
+/// Speed of the central body forward (it faces −x) between two times, m/s.
+fn speed(run: &Run, from_s: f64, to_s: f64) -> f64 {
+    let at = |time_s: f64| {
+        let sample = run.samples.iter().find(|sample| sample.time_s >= time_s).expect("a sample");
+        -sample.positions[0]
+    };
+    (at(to_s) - at(from_s)) / (to_s - from_s)
+}
+
+#[test]
+fn the_biped_walks_as_fast_as_it_is_told_and_stands_again() {
+    let scene = load("walk").expect("built in");
+    let [double, single] = [Scalar::F64, Scalar::F32].map(|scalar| play(&scene, scalar));
+    for run in [&double, &single] {
+        assert_eq!(run.failure, None);
+        let gait = run.gait.expect("a walk");
+        println!("{gait:?}; {:.3} m/s", speed(run, 3.5, 7.5));
+        // Measured: 0.50 m/s, within the sway of a step.
+        assert!((speed(run, 3.5, 7.5) - 0.5).abs() < 0.03);
+        // Standing: 10 µm in the last half second.
+        assert!(speed(run, 9.5, 10.0).abs() < 1e-2);
+        assert!((18..=24).contains(&gait.steps) && gait.falls == 0);
+        assert!(gait.tilt_deg < 2.0);
+        assert!(gait.cost_of_transport.is_some_and(|cost| (0.3..0.9).contains(&cost)));
+    }
+    // Rounding moves where a foot lands.
+    let apart = double.gait.unwrap().distance_m - single.gait.unwrap().distance_m;
+    assert!(apart.abs() < 0.05, "{apart}");
+}
+
+#[test]
+fn a_walk_on_ice_ends_with_the_supervisor() {
+    let mut scene = load("walk").expect("built in");
+    scene.duration_s = 6.0;
+    let Feet::Floor { floor, .. } = &mut scene.feet else { panic!("a floor") };
+    (floor.static_friction, floor.dynamic_friction) = (0.03, 0.03);
+    let run = play(&scene, Scalar::F64);
+    let stop = run.stop.expect("a stop");
+    println!("{:.2} s: {}", stop.time_s, stop.reason);
+    assert_eq!(run.gait.expect("a walk").falls, 1);
+}
