@@ -10,6 +10,9 @@ use surefoot::balance::{Controller, LeggedRobot, Reference, RobotState, Workspac
 use surefoot::dynamics::{
     forward_dynamics, forward_kinematics, inverse_dynamics, joint_poses, mass_matrix,
 };
+use surefoot::estimate::{
+    Estimator, EstimatorState, FootKind, FootReading, ImuReading, Readings, StartPose,
+};
 use surefoot::model::Tree;
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
@@ -276,5 +279,30 @@ pub fn workloads() -> Vec<Workload> {
     all.extend(on_free_body());
     all.extend(on_plants());
     all.extend(on_double_pendulum());
+    all.push(estimator::<f32>("f32"));
+    all.push(estimator::<f64>("f64"));
     all
+}
+
+/// The state estimator of a robot that stands on two soles, which are measured in turn.
+fn estimator<T: Real>(scalar: &str) -> Workload {
+    let settings = Estimator::<T, 2>::new(T::of(2e-3), T::of(9.81), [Some(FootKind::Sole); 2]);
+    let foot = |y: f64| FootReading {
+        position: Vector3::new(T::of(0.02), T::of(y), T::of(-0.9)),
+        orientation: Quaternion::identity(),
+        is_pressed: true,
+        is_planned: true,
+    };
+    let imu = ImuReading {
+        accelerometer: Vector3::new(T::of(0.1), T::of(-0.1), T::of(9.9)),
+        gyroscope: Vector3::repeat(T::of(0.01)),
+    };
+    let readings = Readings { imu, feet: [foot(0.1), foot(-0.1)], feet_force: None };
+    let start = EstimatorState::start(&settings, &readings, &StartPose::origin());
+    let state = RefCell::new(start.expect("at rest"));
+    let call = move || {
+        let report = settings.step(&mut state.borrow_mut(), black_box(&readings));
+        black_box(report.is_ok());
+    };
+    Workload { name: format!("state-estimate/two-soles/{scalar}"), call: Box::new(call) }
 }

@@ -10,6 +10,7 @@
 //! - [`model`]: robots as constant data, checked at compile time (§3.1, §3.2.2, §4.1).
 //! - [`dynamics`]: forward kinematics, inverse and forward dynamics, mass matrix (Alg. 3.1 to 3.3,
 //!   §3.3.4), linear in the number of bodies (but for the mass matrix).
+//! - [`estimate`]: where the robot is and how it moves, from an inertial sensor, encoders and foot switches.
 //! - [`qp`]: quadratic programs with soft rows, within a budget of work; no physics.
 //! - [`balance`]: the recursive workspace controller (Alg. 4.1 to 4.6) as one
 //!   [`tick`](balance::tick), from measured state to joint torques or a typed fault.

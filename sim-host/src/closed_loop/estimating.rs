@@ -52,8 +52,8 @@ pub(super) struct Estimating {
     share: f64,
     pressed: [bool; FEET],
     planned: [bool; FEET],
-    /// On all feet, body axes, N.
-    support: Option<Vector3<f64>>,
+    /// For the next tick alone.
+    feet_force: Option<Vector3<f64>>,
     ticks: u64,
     tally: EstimateTally,
 }
@@ -81,7 +81,7 @@ impl Estimating {
             share: -(-std::f64::consts::TAU * RATE_POLE_HZ * period_s).exp_m1(),
             pressed: [false; FEET],
             planned: [true; FEET],
-            support: None,
+            feet_force: None,
             ticks: 0,
             tally: EstimateTally::default(),
             robot: robot.clone(),
@@ -99,9 +99,9 @@ impl Estimating {
         }
     }
 
-    /// The sum of the ground's forces on the feet of a robot at rest, body axes, N; `None` where nobody knows.
-    pub fn feel(&mut self, support: Option<[f64; 3]>) {
-        self.support = support.map(Vector3::from);
+    /// The force of the ground on all feet, central body's axes, N, for the next tick.
+    pub fn see_feet_force(&mut self, force: Vector3<f64>) {
+        self.feet_force = Some(force);
     }
 
     /// So far.
@@ -127,7 +127,7 @@ impl Estimating {
             is_pressed: self.pressed[foot],
             is_planned: self.planned[foot],
         });
-        let readings = Readings { imu, feet, feet_force: self.support };
+        let readings = Readings { imu, feet, feet_force: self.feet_force.take() };
         let mut state = match self.state {
             Some(state) => state,
             None => EstimatorState::start(&self.settings, &readings, &self.start_pose(truth))?,

@@ -85,7 +85,7 @@ fn estimated(scene: &Scene) -> Result<(), SceneError> {
     if sensing.state != StateSource::Estimate {
         if sensing.accelerometer_bias != [0.0; 3] {
             let expected = "\"estimate\", as `accelerometer_bias` is given";
-            return Err(wrong(scene, "sensing.state", sensing.state, expected));
+            return Err(wrong(scene, "sensing.state", sensing.state.name(), expected));
         }
         return Ok(());
     }
@@ -102,7 +102,7 @@ fn estimated(scene: &Scene) -> Result<(), SceneError> {
     }
     Contacts::of(&scene.robot()).map(|_| ()).map_err(|error| {
         let expected = format!("\"truth\" or \"noise\": {error}");
-        wrong(scene, "sensing.state", sensing.state, expected)
+        wrong(scene, "sensing.state", sensing.state.name(), expected)
     })
 }
 
@@ -190,6 +190,8 @@ mod tests {
             stops("[-140, -1]", "2e3").as_str(),
             "[sensing]\nencoder_counts = 16\ngyroscope_noise = 0.0\nseed = 7",
             "[acting]\ndelay_s = 1.0",
+            "[sensing]\nstate = \"truth\"\nencoder_counts = 64",
+            "[sensing]\nstate = \"estimate\"\naccelerometer_bias = [0.1, 0.0, 0.0]",
         ] {
             parse("test", &text(good)).expect(good);
         }
@@ -200,6 +202,19 @@ mod tests {
             ("[sensing]\naccelerometer_noise = inf", ["accelerometer_noise", "inf", "finite"]),
             ("[sensing]\ncorrection_s = 0.0", ["sensing.correction_s", "0.0", "above zero"]),
             ("[sensing]\ncorrection_s = nan", ["sensing.correction_s", "nan", "finite"]),
+            ("[sensing]\nstate = \"guess\"", ["sensing.state", "guess", "estimate"]),
+            (
+                "[sensing]\naccelerometer_bias = [0.1, 0.0, 0.0]",
+                ["sensing.state", "noise", "`accelerometer_bias` is given"],
+            ),
+            (
+                "[sensing]\nstate = \"estimate\"\naccelerometer_bias = [0.1, nan, 0.0]",
+                ["sensing.accelerometer_bias", "[0.1, nan, 0.0]", "5 m/s²"],
+            ),
+            (
+                "[sensing]\nstate = \"estimate\"\ncorrection_s = 0.5",
+                ["sensing.correction_s", "0.5", "the state is estimated"],
+            ),
             ("[sensing]\nbits = 14", ["sensing.bits", "bits", "encoder_counts"]),
             ("[acting]\ndelay_s = -1e-3", ["acting.delay_s", "-1e-3", "0 to 1 s"]),
             ("[acting]\ndelay_s = 1.5", ["acting.delay_s", "1.5", "0 to 1 s"]),

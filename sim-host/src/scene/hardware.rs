@@ -19,6 +19,17 @@ pub enum StateSource {
     Estimate,
 }
 
+impl StateSource {
+    /// As scenes write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Truth => "truth",
+            Self::Noise => "noise",
+            Self::Estimate => "estimate",
+        }
+    }
+}
+
 /// Sensors. They are ideal unless said.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]

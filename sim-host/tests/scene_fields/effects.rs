@@ -14,7 +14,8 @@ const IDLE: [(&str, &str); 3] = [
 ];
 
 /// Words that a field of words may hold; the record must change from one to the next.
-const WORDS: [(&str, &[&str]); 9] = [
+const WORDS: [(&str, &[&str]); 10] = [
+    ("state", &["truth", "noise", "estimate"]),
     ("distribution", &["least-norm", "limited"]),
     ("torques_from", &["start", "touch-down"]),
     ("outline", &["A", "M", "R"]),

@@ -28,6 +28,10 @@ pub fn scenes() -> Vec<Named> {
         read("experiment-1").replace("step_s = 2e-3", "step_s = 1e-3") + HARDWARE,
     ));
     all.push((
+        "estimating".into(),
+        read("experiment-1").replace("step_s = 2e-3", "step_s = 1e-3") + ESTIMATING,
+    ));
+    all.push((
         "differing".into(),
         read("experiment-1").replace("step_s = 2e-3", "step_s = 1e-3") + DIFFERING,
     ));
@@ -180,6 +184,7 @@ force_n = [10.0, 20.0, -15.0]
 
 const HARDWARE: &str = "
 [sensing]
+state = \"noise\"
 encoder_counts = 16384
 gyroscope_noise = 1e-3
 accelerometer_noise = 1e-2
@@ -200,6 +205,18 @@ torque_limits_nm = [200, 300, 100, 150, 200, 200]
 left_deg = [[-1, 1], [30, 45], [-1, 1], [-140, -77], [-1, 1], [-45, 60]]
 right_deg = [[-1, 1], [30, 45], [-1, 1], [-140, -77], [-1, 1], [-45, 60]]
 stiffness = 2e3
+";
+
+const ESTIMATING: &str = "
+[sensing]
+state = \"estimate\"
+encoder_counts = 65536
+gyroscope_noise = 1e-4
+accelerometer_noise = 1e-3
+seed = 3
+imu_tilt_deg = [0.3, -0.2, 0.1]
+gyroscope_bias = [0.01, -0.01, 0.01]
+accelerometer_bias = [0.1, -0.1, 0.1]
 ";
 
 const DIFFERING: &str = "

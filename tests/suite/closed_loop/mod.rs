@@ -5,6 +5,7 @@ mod bad_ticks;
 mod causes;
 mod differences;
 mod error_dynamics;
+mod estimating;
 mod experiment_1;
 mod experiment_2;
 mod falls;

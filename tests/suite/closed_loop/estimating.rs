@@ -1,0 +1,102 @@
+//! The state estimator in the loop: what the controller sees is what inertial sensor, encoders and switches tell.
+
+use surefoot_sim::closed_loop::{self, Run, Scalar, controller};
+use surefoot_sim::record::{EstimateErrors, WorstErrors};
+use surefoot_sim::scene::{Push, Scene, Sensing, StateSource, load};
+
+/// An estimate by sensors that are exact but for inaudible noise.
+fn exact() -> Sensing {
+    Sensing { state: StateSource::Estimate, ..Sensing::default() }
+}
+
+/// The standard biases of the reference, 16 bits, noise of an industrial sensor.
+fn standard() -> Sensing {
+    Sensing {
+        encoder_counts: 1 << 16,
+        gyroscope_noise: 1e-4,
+        accelerometer_noise: 1e-3,
+        seed: 1,
+        gyroscope_bias: [0.01, -0.01, 0.01],
+        accelerometer_bias: [0.1, -0.1, 0.1],
+        ..exact()
+    }
+}
+
+fn stand(sensing: Sensing) -> Scene {
+    let scene = Scene { sensing, ..load("stand").expect("built in") };
+    scene.check().expect("a valid scene");
+    scene
+}
+
+fn play(scene: &Scene) -> Run {
+    closed_loop::run(scene, controller(scene, Scalar::F64).as_mut(), &mut |_| {})
+}
+
+fn errors(run: &Run) -> WorstErrors {
+    assert!(run.failure.is_none(), "{:?}", run.failure);
+    let tally = run.estimate.as_ref().expect("an estimator");
+    assert!(tally.first.is_none() && tally.feet_made_anew == 0, "{tally:?}");
+    WorstErrors::of(&run.samples).expect("an estimator")
+}
+
+/// Nothing but the method's own errors: means over a tick, rates behind their pole.
+#[test]
+fn exact_sensors_give_the_truth_back() {
+    let WorstErrors { last, worst } = errors(&play(&stand(exact())));
+    println!("{last:?} {worst:?}");
+    assert!(worst.position_error_m < 1e-3 && last.position_error_m < 1e-3, "{worst:?}");
+    assert!(worst.tilt_error_rad < 0.05_f64.to_radians(), "{worst:?}");
+    assert!(worst.velocity_error_m_s < 5e-3, "{worst:?}");
+}
+
+/// The accelerometer's bias across gravity is the tilt, 0.83°; it stands all the same, and takes nine tenths of the
+/// pushes that it takes when it knows the truth.
+#[test]
+fn standard_biases_stand_and_take_pushes() {
+    let EstimateErrors { tilt_error_rad, position_error_m, heading_error_rad, .. } =
+        errors(&play(&stand(standard()))).last;
+    let bias = (0.1 * 2_f64.sqrt() / 9.81).atan();
+    println!("{tilt_error_rad} {bias} {position_error_m} {heading_error_rad}");
+    assert!((tilt_error_rad - bias).abs() < 0.1_f64.to_radians(), "{tilt_error_rad}");
+    assert!(position_error_m < 0.03 && heading_error_rad < 2e-3, "{position_error_m}");
+    for (impulse, degrees) in [(0.9 * 23.0, 180.0_f64), (0.9 * 36.0, 90.0), (0.9 * 32.0, 0.0)] {
+        let mut scene = stand(standard());
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        let force_n = [impulse / 0.1 * cosine, impulse / 0.1 * sine, 0.0];
+        scene.pushes = vec![Push { at_s: 0.7, duration_s: 0.1, force_n }];
+        let run = play(&scene);
+        let last = run.samples.last().expect("samples");
+        assert!(run.failure.is_none(), "{degrees}°: {:?}", run.failure);
+        assert!(last.error_distance() < 0.05, "{degrees}°: {} m", last.error_distance());
+    }
+}
+
+/// `truth` is the ideal scene, whatever else the table says, to the last bit.
+#[test]
+fn the_truth_has_no_errors() {
+    let short = |sensing| {
+        let mut scene = stand(sensing);
+        scene.duration_s = 0.2;
+        play(&scene).samples
+    };
+    let truth = Sensing { state: StateSource::Truth, encoder_counts: 64, ..Sensing::default() };
+    assert_eq!(short(truth), short(Sensing::default()));
+    let seeds = [1, 1, 2].map(|seed| short(Sensing { seed, ..standard() }));
+    assert_eq!(seeds[0], seeds[1]);
+    assert_ne!(seeds[0], seeds[2]);
+}
+
+/// It leaves nothing to go on from, and goes on from nothing.
+#[test]
+fn an_estimated_run_cannot_be_taken_up_again() {
+    let mut scene = stand(Sensing::default());
+    scene.duration_s = 0.1;
+    let saved = play(&scene).saved.expect("a run of the truth can");
+    scene.sensing = standard();
+    assert!(play(&scene).saved.is_none());
+    scene.duration_s = 0.2;
+    let mut controller = controller(&scene, Scalar::F64);
+    let run = closed_loop::run_from(&scene, controller.as_mut(), Some(&saved), &mut |_| {});
+    let failure = run.failure.expect("a refusal");
+    assert!(failure.kind == "resume" && failure.place.contains("estimate"), "{failure:?}");
+}
