@@ -8,7 +8,8 @@ use nalgebra::Vector3;
 use serde::Serialize;
 use surefoot::balance::WholeBodyFoot;
 use surefoot::estimate::{
-    EstimateFault, Estimator, EstimatorState, FootKind, FootReading, Readings, StartPose,
+    EstimateFault, Estimator, EstimatorState, FootKind, FootReading, Readings, SensorNoise,
+    StartPose,
 };
 use surefoot::spatial::{Pose, Quaternion};
 
@@ -72,8 +73,13 @@ impl Estimating {
             })
         });
         let gravity = robot.tree.gravity();
+        // Floors of scenes yield.
+        let settings = Estimator {
+            noise: SensorNoise::yielding_ground(),
+            ..Estimator::new(period_s, gravity.norm(), kinds)
+        };
         Self {
-            settings: Estimator::new(period_s, gravity.norm(), kinds),
+            settings,
             feet,
             state: None,
             sensor: InertialSensor::new(sensing, period_s, gravity),
