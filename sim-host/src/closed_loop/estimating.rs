@@ -8,7 +8,8 @@ use nalgebra::Vector3;
 use serde::Serialize;
 use surefoot::balance::WholeBodyFoot;
 use surefoot::estimate::{
-    EstimateFault, Estimator, EstimatorState, FootKind, FootReading, Readings, StartPose,
+    EstimateFault, Estimator, EstimatorState, FootKind, FootReading, Readings, SensorNoise,
+    StartPose,
 };
 use surefoot::spatial::{Pose, Quaternion};
 
@@ -75,8 +76,10 @@ impl Estimating {
             })
         });
         let gravity = robot.tree.gravity();
-        let mut settings = Estimator::new(period_s, gravity.norm(), kinds);
-        settings.noise.force_direction = FORCE_DIRECTION;
+        // Floors of scenes yield.
+        let noise =
+            SensorNoise { force_direction: FORCE_DIRECTION, ..SensorNoise::yielding_ground() };
+        let settings = Estimator { noise, ..Estimator::new(period_s, gravity.norm(), kinds) };
         Self {
             settings,
             feet,
