@@ -37,6 +37,12 @@ pub fn motion() -> Value {
     parse(include_str!("vectors/motion_vectors.json"))
 }
 
+/// A biped in MuJoCo that carries 10 kg and is pushed, and what an observer in numpy, on MuJoCo's mass matrix, bias and
+/// Jacobians, makes of it.
+pub fn disturbances() -> Value {
+    parse(include_str!("vectors/disturbance_vectors.json"))
+}
+
 pub(crate) fn parse(text: &str) -> Value {
     serde_json::from_str(text).expect("the vectors are valid JSON")
 }

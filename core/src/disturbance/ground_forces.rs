@@ -137,20 +137,21 @@ fn least_squares<T: Real, const D: usize>(
     count: usize,
     missing: Option<&[T; D]>,
 ) -> Option<[T; D]> {
+    // The lower triangle alone, which fits the target's registers.
     let mut square = [[T::zero(); D]; D];
     let mut right = [T::zero(); D];
     if let Some(missing) = missing {
-        for (row, x) in square.iter_mut().zip(missing) {
-            for (entry, y) in row.iter_mut().zip(missing) {
-                *entry = *x * *y;
+        for i in 0..D {
+            for j in 0..=i {
+                square[i][j] = missing[i] * missing[j];
             }
         }
     }
     for (column, r) in columns.iter().zip(r).take(count) {
-        for ((row, x), right) in square.iter_mut().zip(column).zip(&mut right) {
-            *right += *x * *r;
-            for (entry, y) in row.iter_mut().zip(column) {
-                *entry += *x * *y;
+        for i in 0..D {
+            right[i] += column[i] * *r;
+            for j in 0..=i {
+                square[i][j] += column[i] * column[j];
             }
         }
     }
@@ -161,9 +162,11 @@ fn least_squares<T: Real, const D: usize>(
         found => damped(&square, found.map_or(T::zero(), |(_, pivot)| pivot))?,
     };
     let mut x = factors.solve(&right);
-    for (right, row) in right.iter_mut().zip(&square) {
-        for (entry, x) in row.iter().zip(&x) {
-            *right -= *entry * *x;
+    for i in 0..D {
+        right[i] -= square[i][i] * x[i];
+        for j in 0..i {
+            right[i] -= square[i][j] * x[j];
+            right[j] -= square[i][j] * x[i];
         }
     }
     for (x, more) in x.iter_mut().zip(factors.solve(&right)) {

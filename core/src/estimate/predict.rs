@@ -148,14 +148,17 @@ fn add_noise<T: Real, const FEET: usize>(
     widen(&mut p.body[TILT][TILT], variance(noise.gyroscope));
     widen(&mut p.body[ACCELEROMETER][ACCELEROMETER], variance(noise.accelerometer_drift));
     widen(&mut p.body[GYROSCOPE][GYROSCOPE], variance(noise.gyroscope_drift));
-    let parts = [noise.foot_position, noise.foot_orientation].map(variance);
+    let [position_noise, tilt, heading] =
+        [noise.foot_position, noise.foot_tilt, noise.foot_heading].map(variance);
     for (number, (rows, [position, orientation])) in p.feet.iter_mut().zip(present).enumerate() {
         if let Some([[a, _], [_, b]]) = rows.feet.get_mut(number) {
             if *position {
-                widen(a, parts[0]);
+                widen(a, position_noise);
             }
             if *orientation {
-                widen(b, parts[1]);
+                b.m11 += tilt;
+                b.m22 += tilt;
+                b.m33 += heading;
             }
         }
     }

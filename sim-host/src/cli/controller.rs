@@ -4,7 +4,7 @@ use crate::closed_loop::firmware::{
     Emulator, LinkError, SerialPort, firmware_controller, image_for,
 };
 use crate::closed_loop::{self, Controller, Scalar};
-use crate::scene::Scene;
+use crate::scene::{Disturbance, Scene};
 use clap::Args;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -69,6 +69,27 @@ impl ControllerOptions {
             return Err("--scalar f64: the target's controller is in f32".to_owned());
         }
         Ok(())
+    }
+
+    /// Refuses a scene whose controller does what the one in effect cannot.
+    pub fn serves(&self, scene: &Scene) -> Result<(), String> {
+        let settings = &scene.controller;
+        let wanted = match self.place {
+            Place::Host | Place::Bare => None,
+            Place::Firmware if settings.disturbance == Disturbance::Observed => {
+                Some("observes disturbances (`controller.disturbance`)")
+            }
+            Place::Firmware if settings.friction_share > 0.0 => {
+                Some("makes up for friction (`controller.friction_share`)")
+            }
+            Place::Firmware => None,
+        };
+        wanted.map_or(Ok(()), |what| {
+            Err(format!(
+                "--controller firmware: {}'s controller {what}, the target's does not",
+                scene.name
+            ))
+        })
     }
 
     /// A controller for a scene, ready for its first tick.

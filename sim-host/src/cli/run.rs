@@ -139,6 +139,7 @@ pub fn run(options: &Options) -> ExitCode {
 fn run_robot(scene: Scene, options: &Options) -> Result<ExitCode, String> {
     options.controller.check()?;
     let (scene, reason) = with_options(scene, options)?;
+    options.controller.serves(&scene)?;
     let scalar = options.controller.scalar();
     let saved = options.saved(scene.duration_s)?;
     if let Some(saved) = &saved {

@@ -3,6 +3,7 @@
 use super::approximate::{ApproximateController, Approximation};
 use super::disturbance::{Observe, observer};
 use super::firmware::LinkError;
+use super::friction::Friction;
 use super::gait::GaitTally;
 use super::limiting::{LimitTally, Limiting};
 use super::supervised::SupervisedController;
@@ -172,6 +173,7 @@ pub struct HostController<T, const LEGS: usize> {
     pub(super) reference: Reference<T>,
     limiting: Option<Limiting<T, LEGS>>,
     observer: Option<Box<dyn Observe<T>>>,
+    friction: Option<Friction<T>>,
 }
 
 /// The controller of a scene, under its supervisor: what runs on the target.
@@ -304,6 +306,7 @@ impl<T: Real, const LEGS: usize> HostController<T, LEGS> {
             robot,
             limiting,
             observer: None,
+            friction: Friction::of(scene),
             gains: Gains {
                 position: diagonal(settings.position_gain),
                 velocity: diagonal(settings.velocity_gain),
@@ -358,10 +361,15 @@ impl<T: Real, const LEGS: usize> HostController<T, LEGS> {
         let controller = core(&self.robot, self.gains, self.form);
         let reference = self.reference();
         let external = self.observer.as_ref().map(|observer| observer.wrench());
-        match &mut self.limiting {
-            None => tick(&controller, state, &reference),
-            Some(limiting) => limiting.tick(&controller, state, &reference, external),
+        let mut command = match &mut self.limiting {
+            None => tick(&controller, state, &reference)?,
+            Some(limiting) => limiting.tick(&controller, state, &reference, external)?,
+        };
+        if let Some(friction) = &self.friction {
+            let rates = state.joint_rates.as_flattened();
+            friction.add(command.joint_torques.as_flattened_mut(), rates, None);
         }
+        Ok(command)
     }
 }
 

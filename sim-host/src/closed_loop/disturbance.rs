@@ -1,6 +1,7 @@
 //! The observer of disturbances in the loop: what a controller is told beside its state.
 
 use super::at_rest::nominal;
+use super::friction::Friction;
 use crate::plant::PlantState;
 use crate::robot::Contacts;
 use crate::scene::{Disturbance, Scene};
@@ -61,6 +62,7 @@ struct Observing<T, const N: usize, const NQ: usize, const NV: usize> {
     observer: DisturbanceObserver<T, N, NQ, NV>,
     contacts: [bool; FEET],
     torques: [T; NV],
+    friction: Option<Friction<T>>,
     state: Option<WholeBodyState<T, NQ, NV>>,
     support: Option<Vector3<T>>,
 }
@@ -87,6 +89,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Observing<T, N, 
             model,
             contacts: [true; FEET],
             torques: [T::zero(); NV],
+            friction: Friction::of(scene),
             state: None,
             support: None,
         }
@@ -117,6 +120,9 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Observe<T>
 
     fn sent(&mut self, torques: &[T]) {
         self.torques[6..].iter_mut().zip(torques).for_each(|(to, torque)| *to = *torque);
+        if let (Some(friction), Some(state)) = (&self.friction, &self.state) {
+            friction.take(&mut self.torques[6..], &state.velocities[6..]);
+        }
     }
 
     fn wrench(&self) -> Wrench<T> {

@@ -13,6 +13,7 @@ mod estimate;
 mod estimating;
 mod events;
 pub mod firmware;
+mod friction;
 mod gait;
 mod inertial;
 mod lag;

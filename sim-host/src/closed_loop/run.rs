@@ -241,7 +241,9 @@ fn advance(
         if sensors.is_estimating() {
             let held = matches!(scene.feet, Feet::Welded {}).then_some(f64::INFINITY);
             sensors.see_feet(seen.foot_forces.iter().map(|force| held.unwrap_or(*force)), None);
-            sensors.feel(controller.support());
+            if let Some(force) = controller.support() {
+                sensors.see_feet_force(force.into());
+            }
         }
         let measured = sensors.read(&state);
         let command = command(measured, controller, touched, time)?;

@@ -2,6 +2,7 @@
 
 use super::controller::{Commanded, ControlFailure, Controller, measured};
 use super::disturbance::{Observe, observer};
+use super::friction::Friction;
 use super::limiting::LimitTally;
 use super::standing::{FEET, Standing};
 use super::supervised::{recorded, remembered};
@@ -32,6 +33,7 @@ pub(super) struct WholeBodyHost<T, const N: usize, const NQ: usize, const NV: us
     pub(super) time_s: f64,
     pub(super) tally: LimitTally,
     observer: Option<Box<dyn Observe<T>>>,
+    friction: Option<Friction<T>>,
 }
 
 /// The same with its supervisor, which takes joints in rows of six.
@@ -73,6 +75,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
                 Quaternion::from_array(scene.set_point.orientation.map(T::of)),
             ),
             observer: observer(tree, scene),
+            friction: Friction::of(scene),
             robot,
             tree,
             memory: WholeBodyMemory::new(),
@@ -91,7 +94,11 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
         let Self { tree, model, settings, memory, contacts, .. } = self;
         let controller = WholeBodyController { tree, robot: model, settings };
         let around = (&*contacts, external);
-        let command = whole_body_tick_under(&controller, state, &reference, around, memory)?;
+        let mut command = whole_body_tick_under(&controller, state, &reference, around, memory)?;
+        if let Some(friction) = &self.friction {
+            let wanted = Some(&command.accelerations[6..]);
+            friction.add(&mut command.torques[6..], &state.velocities[6..], wanted);
+        }
         self.count(&command.limits);
         Ok(command)
     }

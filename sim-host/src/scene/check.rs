@@ -114,6 +114,12 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
         let expected = "a share of 0 to 1";
         return Err(wrong(scene, "controller.friction_share", controller.friction_share, expected));
     }
+    if controller.friction_share > 0.0
+        && scene.robot().passive.iter().all(|joint| joint.friction == 0.0)
+    {
+        let expected = "none, as the robot's file states no friction of its joints";
+        return Err(wrong(scene, "controller.friction_share", controller.friction_share, expected));
+    }
     if controller.distribution == Distribution::Limited && matches!(scene.feet, Feet::Welded {}) {
         let expected = "\"least-norm\" for feet that are held: nothing limits them";
         return Err(wrong(scene, "controller.distribution", "limited", expected));

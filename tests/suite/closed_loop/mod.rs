@@ -12,6 +12,7 @@ mod falls;
 mod hardware;
 mod limits;
 mod link;
+mod loaded;
 mod parsimony;
 mod plants;
 mod sensing;
