@@ -4,7 +4,7 @@ use super::controller::{Commanded, ControlFailure, Controller, measured};
 use super::limiting::{
     FRICTION_SHARE, LimitTally, MOST_WEIGHTS, SOLE_SHARE, WorstLimit, friction, named,
 };
-use super::supervised::{recorded, remembered};
+use super::supervised::{of_state, recorded, remembered};
 use crate::plant::PlantState;
 use crate::record;
 use crate::robot::{Contacts, LEG, SharedRobot, stance};
@@ -207,7 +207,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
         scene: &Scene,
     ) -> Self {
         let period = T::of(1.0 / scene.controller.rate_hz);
-        let mut supervisor = Supervisor::new(limits, period)
+        let mut supervisor = Supervisor::new(of_state(limits, scene), period)
             .expect("limits of the robot, period of a checked scene");
         supervisor.arm();
         Self { inner, supervisor }
