@@ -25,7 +25,12 @@ use surefoot_link::{RobotId, frame_bytes};
 pub static ROBOT: surefoot::balance::LeggedRobot<f32, ROWS> = of_file::ROBOT;
 
 /// What its supervisor allows: settings may be tighter, and no wider.
+#[cfg(not(walks))]
 pub static LIMITS: SafetyLimits<f32, ROWS> = of_file::LIMITS;
+/// What its supervisor allows: settings may be tighter, and no wider.
+#[cfg(walks)]
+pub static LIMITS: SafetyLimits<f32, ROWS> =
+    of_file::LIMITS.with_rates(surefoot::walk::LANDING_RATE);
 
 /// Joints are supervised in rows of so many: a leg's, where all legs have six.
 pub const ROW: usize = 6;

@@ -4,8 +4,8 @@ use crate::control::Measurement;
 use crate::robot::{FEET, JOINTS, ROWS, VELOCITIES};
 use crate::stance::{self, MODEL, Stance, command};
 use surefoot::balance::{
-    Command, Fault, Input, MotionWeights, Reference, RobotState, WholeBodyController,
-    WholeBodyMemory, WholeBodySettings, WholeBodyState, observe, whole_body_motion_tick,
+    Command, Fault, Input, Reference, RobotState, WholeBodyController, WholeBodyMemory,
+    WholeBodySettings, WholeBodyState, observe, whole_body_motion_tick,
 };
 use surefoot::spatial::Quaternion;
 use surefoot::walk::{Planner, WalkCommand, WalkFault, WalkMemory};
@@ -75,8 +75,9 @@ impl Balance {
             // Starting values belong to the height of the centre of mass here.
             let stature = &walker.planner.stature;
             let (height, gravity) = (stature.height, stature.robot.gravity);
-            let own = WholeBodySettings::<f32, VELOCITIES>::scaled(height, gravity, FEET);
-            stance.settings.motion = MotionWeights::scaled(height, gravity);
+            let own = WholeBodySettings::<f32, VELOCITIES>::walking(height, gravity, FEET);
+            stance.settings.motion = own.motion;
+            stance.settings.limits = own.limits;
             stance.settings.posture_gains = own.posture_gains;
             stance.settings.rest_rate = own.rest_rate;
         }

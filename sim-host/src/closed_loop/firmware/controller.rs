@@ -6,7 +6,7 @@ use crate::closed_loop::standing::{Standing, firmware_id};
 use crate::closed_loop::walking::{self, WalkStart};
 use crate::closed_loop::{Commanded, ControlFailure, Controller, Costs};
 use crate::plant::PlantState;
-use crate::robot::{LEG, SharedRobot, with_tree};
+use crate::robot::{LEG, Robot, SharedRobot, with_tree};
 use crate::scene::{Scene, WalkCommand, Workspace};
 use surefoot::balance::{Ground, JointLimits, Sole, StopReason, Thresholds};
 use surefoot_link::{
@@ -185,6 +185,11 @@ pub fn settings<const JOINTS: usize>(scene: &Scene) -> Settings<JOINTS> {
 /// Limits of the scene's robot.
 fn single_precision(scene: &Scene) -> (Vec<JointLimits<f32>>, Thresholds<f32>) {
     let robot = scene.robot();
+    if !scene.walk.is_empty() {
+        return with_tree!(&robot.tree, _tree, ROWS => {
+            walking_single::<ROWS>(&robot)
+        }, _tree, ROWS => walking_single::<ROWS>(&robot));
+    }
     with_tree!(&robot.tree, _tree, LEGS => {
         let limits = robot.limits.sized::<LEGS>().expect("a robot has limits for each of its joints");
         let limits = limits.to_f32();
@@ -193,6 +198,14 @@ fn single_precision(scene: &Scene) -> (Vec<JointLimits<f32>>, Thresholds<f32>) {
         let limits = robot.limits.in_rows::<ROWS>().expect("rows for each of its joints").to_f32();
         (limits.joints.as_flattened().to_vec(), limits.thresholds)
     })
+}
+
+/// The same of a robot that walks.
+fn walking_single<const ROWS: usize>(robot: &Robot) -> (Vec<JointLimits<f32>>, Thresholds<f32>) {
+    let limits =
+        walking::walking_limits(&robot.limits).in_rows::<ROWS>().expect("rows for its joints");
+    let limits = limits.to_f32();
+    (limits.joints.as_flattened().to_vec(), limits.thresholds)
 }
 
 /// Diagonals of a scene's gain matrices, in the order of `Gains`.
