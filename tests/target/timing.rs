@@ -26,6 +26,7 @@ fn random(random: &mut Pcg64Mcg, knees: [f32; 2]) -> Sensors {
         ),
         joint_rates: std::array::from_fn(|_| within(5.0)).into(),
         contacts: 3,
+        forces: surefoot_link::Joints::new([0.0; surefoot_link::MOST_FEET], 0),
     }
 }
 

@@ -17,9 +17,6 @@ use surefoot::spatial::{Pose, Quaternion};
 const FEET: usize = 4;
 /// A foot's switch closes at this share of the robot's weight: 20 N of a person's.
 const SWITCH_SHARE: f64 = 0.03;
-/// Of the direction in which the feet's forces are found, m/s²/√Hz: a tenth in variance of core's starting value, with
-/// which a sensor that is askew by 1.5° still tilts the robot by 0.9° after 6 s.
-const FORCE_DIRECTION: f64 = 0.03;
 /// Joint rates are differences over a tick, behind one pole, Hz.
 const RATE_POLE_HZ: f64 = 60.0;
 
@@ -56,8 +53,8 @@ pub(super) struct Estimating {
     share: f64,
     pressed: [bool; FEET],
     planned: [bool; FEET],
-    /// On all feet, body axes, N.
-    support: Option<Vector3<f64>>,
+    /// For the next tick alone.
+    feet_force: Option<Vector3<f64>>,
     ticks: u64,
     tally: EstimateTally,
 }
@@ -77,9 +74,10 @@ impl Estimating {
         });
         let gravity = robot.tree.gravity();
         // Floors of scenes yield.
-        let noise =
-            SensorNoise { force_direction: FORCE_DIRECTION, ..SensorNoise::yielding_ground() };
-        let settings = Estimator { noise, ..Estimator::new(period_s, gravity.norm(), kinds) };
+        let settings = Estimator {
+            noise: SensorNoise::yielding_ground(),
+            ..Estimator::new(period_s, gravity.norm(), kinds)
+        };
         Self {
             settings,
             feet,
@@ -89,7 +87,7 @@ impl Estimating {
             share: -(-std::f64::consts::TAU * RATE_POLE_HZ * period_s).exp_m1(),
             pressed: [false; FEET],
             planned: [true; FEET],
-            support: None,
+            feet_force: None,
             ticks: 0,
             tally: EstimateTally::default(),
             robot: robot.clone(),
@@ -107,9 +105,9 @@ impl Estimating {
         }
     }
 
-    /// The sum of the ground's forces on the feet of a robot at rest, body axes, N; `None` where nobody knows.
-    pub fn feel(&mut self, support: Option<[f64; 3]>) {
-        self.support = support.map(Vector3::from);
+    /// The force of the ground on all feet, central body's axes, N, for the next tick.
+    pub fn see_feet_force(&mut self, force: Vector3<f64>) {
+        self.feet_force = Some(force);
     }
 
     /// So far.
@@ -135,7 +133,7 @@ impl Estimating {
             is_pressed: self.pressed[foot],
             is_planned: self.planned[foot],
         });
-        let readings = Readings { imu, feet, feet_force: self.support };
+        let readings = Readings { imu, feet, feet_force: self.feet_force.take() };
         let mut state = match self.state {
             Some(state) => state,
             None => EstimatorState::start(&self.settings, &readings, &self.start_pose(truth))?,

@@ -8,6 +8,7 @@ use crate::plant::PlantState;
 use crate::record::EncoderMemory;
 use crate::robot::SharedRobot;
 use crate::scene::{Sensing, StateSource};
+use nalgebra::Vector3;
 use surefoot::estimate::EstimateFault;
 
 /// The sensors of a robot, read once a tick. Ideal ones read the state as it is.
@@ -92,10 +93,11 @@ impl Sensors {
         }
     }
 
-    /// Tells the estimator of the sum of the ground's forces on the feet of a robot at rest, central body's axes, N.
-    pub fn feel(&mut self, support: Option<[f64; 3]>) {
+    /// Tells the estimator before a tick what force the ground is found to have on all feet together, central body's
+    /// axes, N: of a robot that rests on its feet and on nothing else. Of no use to others.
+    pub fn see_feet_force(&mut self, force: Vector3<f64>) {
         if let Some(estimating) = &mut self.estimating {
-            estimating.feel(support);
+            estimating.see_feet_force(force);
         }
     }
 
