@@ -394,6 +394,7 @@ fn torques(record: &Record) -> Torques {
         mode: record.mode,
         reason: record.reason,
         limits: record.limits,
+        steps: record.steps,
         cost: record.cost,
         latency: record.latency,
     }

@@ -50,6 +50,8 @@ pub struct Record {
     pub reason: Option<StopReason>,
     /// What limits of ground and motors made of the tick, where there are any.
     pub limits: Option<TickLimits<f32>>,
+    /// Steps so far.
+    pub steps: u32,
     /// Torques cut to their limits so far.
     pub cut_torques: u32,
     /// Ticks so far.
@@ -204,6 +206,10 @@ impl Control {
             mode,
             reason: self.supervisor.reason(),
             limits,
+            #[cfg(walks)]
+            steps: self.balance.steps(),
+            #[cfg(not(walks))]
+            steps: 0,
             cut_torques: self.supervisor.cut_torques(),
             tick: self.tick,
             orders: self.taken,

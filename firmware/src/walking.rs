@@ -90,6 +90,11 @@ impl Balance {
         self.command = WalkCommand::from(order);
     }
 
+    /// Steps so far.
+    pub fn steps(&self) -> u32 {
+        self.plan.steps
+    }
+
     /// What limits made of the last tick.
     pub fn take_limits(&mut self) -> Option<TickLimits<f32>> {
         self.met.take()

@@ -192,6 +192,8 @@ pub struct Torques<const JOINTS: usize> {
     pub reason: Option<StopReason>,
     /// What limits of ground and motors made of it, where there are any.
     pub limits: Option<TickLimits<f32>>,
+    /// Steps so far, of a robot that walks.
+    pub steps: u32,
     /// Cost of the tick, from measurement to torques.
     pub cost: u32,
     /// Cost between the tick's being due and its beginning.

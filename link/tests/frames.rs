@@ -167,6 +167,7 @@ fn torques<const N: usize>() -> Torques<N> {
         mode: Mode::Stopping { left: u16::MAX },
         reason: Some(StopReason::Frozen { leg: N, joint: N }),
         limits: Some(TickLimits { is_active: true, is_unfinished: true, worst: Some(worst) }),
+        steps: u32::MAX,
         cost: u32::MAX,
         latency: u32::MAX,
     }
@@ -483,11 +484,12 @@ fn frames_of_a_tick_are_short() {
         mode: Mode::Active,
         reason: None,
         limits: None,
+        steps: 0,
         cost: 20_721,
         latency: 28,
     };
     let received = frame(&mut sender(), &FromTarget::Torques(answer)).len();
-    assert_eq!((sent, received), (168, 96));
+    assert_eq!((sent, received), (168, 97));
 }
 
 /// The line's arithmetic, as docs/firmware.md has it.

@@ -87,6 +87,7 @@ fn lines(out: &mut String, report: &Report<'_>) -> std::fmt::Result {
     let Report { scene, run, .. } = report;
     let word = match run.outcome {
         Outcome::Balanced => "BALANCED",
+        Outcome::Completed if run.gait.is_some() => "WALKED without a fall",
         Outcome::Completed => "COMPLETED, but not at the set point",
         Outcome::Stopped => "STOPPED by its supervisor",
         Outcome::Interrupted => "INTERRUPTED",

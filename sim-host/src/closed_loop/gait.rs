@@ -11,14 +11,15 @@ use serde::Serialize;
 pub struct GaitTally {
     /// Touch-downs of a foot, or a pair of feet.
     pub steps: u32,
-    /// When the robot first had a command to walk, s.
-    pub begun_s: Option<f64>,
+    /// When the robot first had a command to walk, and when then one to stand, s.
+    pub told_s: [Option<f64>; 2],
 }
 
 /// A walk in numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Gait {
-    /// Mean speed over the second half of the run, from where the central body was to where it is, m/s.
+    /// Mean speed over the second half of the time for which it was told to walk, from where the central body was to
+    /// where it came, m/s.
     pub speed_m_s: f64,
     /// Touch-downs of a foot, or a pair of feet.
     pub steps: u32,
@@ -42,10 +43,12 @@ impl Gait {
             [first, .., last] => ((at(last) - at(first)).norm(), last.time_s - first.time_s),
             _ => (0.0, 0.0),
         };
-        let (late, time) = way(&samples[samples.len() / 2..]);
-        let begun = tally.begun_s.unwrap_or(f64::INFINITY);
-        let walked = samples.partition_point(|sample| sample.time_s < begun);
-        let walked = &samples[walked..];
+        let until = |time: Option<f64>| {
+            samples.partition_point(|sample| sample.time_s < time.unwrap_or(f64::INFINITY))
+        };
+        let [begun, ended] = tally.told_s.map(until);
+        let (late, time) = way(&samples[usize::midpoint(begun, ended)..ended]);
+        let walked = &samples[begun..];
         let (distance, _) = way(walked);
         let power = |sample: &Sample| -> f64 {
             let rates = sample.velocities[6..].iter();

@@ -51,6 +51,14 @@ pub(super) fn asked<T: Real>(commands: &[WalkCommand], time_s: f64) -> walk::Wal
     walk::WalkCommand { walk, lowered: T::of(now.map_or(0.0, |c| c.lowered_m)) }
 }
 
+/// When a robot is first told to walk, and when then to stand, s.
+pub(super) fn told(commands: &[WalkCommand]) -> [Option<f64>; 2] {
+    let first = commands.iter().position(|command| !command.stand);
+    let after = |first: usize| commands[first..].iter().find(|command| command.stand);
+    let at = |command: &WalkCommand| command.at_s;
+    [first.map(|first| at(&commands[first])), first.and_then(after).map(at)]
+}
+
 /// What the supervisor of a robot that walks allows.
 pub(super) fn walking_limits(standing: &Limits) -> Limits {
     let mut limits = standing.clone();
@@ -231,8 +239,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
 
     fn gait(&self) -> Option<GaitTally> {
         let walker = &self.walker;
-        let begun = walker.commands.iter().find(|command| !command.stand);
-        Some(GaitTally { steps: walker.memory.steps, begun_s: begun.map(|command| command.at_s) })
+        Some(GaitTally { steps: walker.memory.steps, told_s: told(&walker.commands) })
     }
 
     fn limits(&self) -> Option<LimitTally> {

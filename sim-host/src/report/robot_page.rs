@@ -35,7 +35,7 @@ pub fn page(report: &Report<'_>) -> Result<String, PageFailure> {
     let content = Content {
         scene: &scene.name,
         description: &scene.description,
-        outcome: word(run.outcome),
+        outcome: word(run),
         failure: run.failure.as_ref().map(failure_text),
         warnings: &[],
         facts: tables::facts(report),
@@ -72,9 +72,10 @@ fn figures(scene: &str, robot: &Robot, run: &Run) -> Result<Vec<String>, ChartEr
     charts.map(|(i, chart)| chart.svg(&of(i), robot, &run.samples, &run.events)).collect()
 }
 
-fn word(outcome: Outcome) -> Word {
-    let (word, class) = match outcome {
+fn word(run: &Run) -> Word {
+    let (word, class) = match run.outcome {
         Outcome::Balanced => ("Balanced", "balanced"),
+        Outcome::Completed if run.gait.is_some() => ("Walked without a fall", "completed"),
         Outcome::Completed => ("Completed, but not at the set point", "completed"),
         Outcome::Stopped => ("Stopped by its supervisor", "failed"),
         Outcome::Interrupted => ("Interrupted", "completed"),

@@ -1,7 +1,7 @@
 //! What the page's tables say.
 
 use super::Report;
-use crate::closed_loop::{Peaks, Run};
+use crate::closed_loop::{Gait, Peaks, Run};
 use crate::experiments::{Comparison, printed_figures, reading};
 use crate::record::{Event, Settling};
 use crate::robot::Robot;
@@ -18,7 +18,15 @@ pub(super) fn facts(report: &Report<'_>) -> Vec<Fact> {
     let Report { scene, controller, run, .. } = report;
     let mut facts = Vec::new();
     let mut add = |name, value: String| facts.push(Fact { name, value });
-    if let Some(last) = run.samples.last() {
+    if let Some(gait) = &run.gait {
+        let Gait { speed_m_s, steps, distance_m, tilt_deg, cost_of_transport, .. } = gait;
+        add("walked", format!("{distance_m:.2} m in {steps} steps"));
+        add("speed", format!("{speed_m_s:.2} m/s over the second half of the walk"));
+        add("largest tilt", format!("{tilt_deg:.1}°"));
+        if let Some(cost) = cost_of_transport {
+            add("cost of transport", format!("{cost:.2} (work over weight and way)"));
+        }
+    } else if let Some(last) = run.samples.last() {
         let (distance, angle) = (1e3 * last.error_distance(), last.error_angle().to_degrees());
         add("final error", format!("{distance:.4} mm, {angle:.5}° (asked for: 1 mm, 0.1°)"));
         let Settling { position_s, orientation_s } = Settling::of(&run.samples);

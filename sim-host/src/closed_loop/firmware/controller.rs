@@ -1,6 +1,7 @@
 //! The controller on a target, in place of the host's.
 
 use super::{LinkError, Target, Transport, image};
+use crate::closed_loop::gait::GaitTally;
 use crate::closed_loop::limiting::{Given, LimitTally};
 use crate::closed_loop::standing::{Standing, firmware_id};
 use crate::closed_loop::walking::{self, WalkStart};
@@ -40,6 +41,8 @@ struct Walk {
     told: Option<WalkOrder>,
     /// Normal forces on its feet at the next tick, N.
     forces: Joints<f32, MOST_FEET>,
+    /// So far.
+    steps: u32,
 }
 
 /// A scene's controller on a target of its robot.
@@ -105,7 +108,7 @@ impl<const JOINTS: usize> FirmwareController<JOINTS> {
         let (time_s, contacts, limited) = (0.0, u8::MAX, Vec::new());
         let (commands, told) = (scene.walk.clone(), None);
         let forces = Joints::new([0.0; MOST_FEET], robot.feet.len());
-        let walk = walks.then_some(Walk { commands, told, forces });
+        let walk = walks.then_some(Walk { commands, told, forces, steps: 0 });
         Ok(Self { target, robot, costs, stopped, time_s, contacts, tally, limited, walk })
     }
 
@@ -139,6 +142,9 @@ impl<const JOINTS: usize> FirmwareController<JOINTS> {
             sensors.forces = walk.forces;
         }
         let torques = self.target.tick(&sensors)?;
+        if let Some(walk) = &mut self.walk {
+            walk.steps = torques.steps;
+        }
         self.costs.push(torques.cost);
         self.limited.push(torques.limits.is_some_and(|limits| limits.is_active));
         Ok(torques)
@@ -286,6 +292,11 @@ impl<const JOINTS: usize> Controller for FirmwareController<JOINTS> {
                 *to = *force as f32;
             }
         }
+    }
+
+    fn gait(&self) -> Option<GaitTally> {
+        let walk = self.walk.as_ref()?;
+        Some(GaitTally { steps: walk.steps, told_s: walking::told(&walk.commands) })
     }
 
     fn limits(&self) -> Option<LimitTally> {
