@@ -11,6 +11,7 @@ use crate::chart::{RUN_FIGURES, RunFigure};
 use crate::closed_loop::{self, Run};
 use crate::follow::Until;
 use crate::integrators::Method;
+use crate::picture::moving;
 use crate::record::{MotionIdentity, RobotRecord, SavedRun};
 use crate::report::page;
 use crate::scene::{AnyScene, Feet, Scene, StateSource, TorquesFrom, open};
@@ -326,6 +327,14 @@ fn write_files(folder: &Path, report: &Report<'_>) -> Result<Vec<PathBuf>, Strin
         &record,
         &run.events,
         || page(&report.page()).map_err(|error| error.to_string()),
-        || RUN_FIGURES.iter().map(drawn).collect(),
+        || {
+            let mut figures = RUN_FIGURES.iter().map(drawn).collect::<Result<Vec<_>, String>>()?;
+            if let Some(gait) = run.gait.as_ref().filter(|gait| gait.falls == 0) {
+                // Two seconds of the walk at its full speed.
+                let picture = moving(&record, [gait.ended_s - 2.0, gait.ended_s]);
+                figures.push(("moving", picture.map_err(|error| error.to_string())?));
+            }
+            Ok(figures)
+        },
     )
 }

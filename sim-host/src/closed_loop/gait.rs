@@ -32,6 +32,8 @@ pub struct Gait {
     pub distance_m: f64,
     /// Largest tilt of the central body, degrees.
     pub tilt_deg: f64,
+    /// When it was told to stand, or the run ended, s.
+    pub ended_s: f64,
 }
 
 impl Gait {
@@ -68,6 +70,7 @@ impl Gait {
             falls: u32::from(run.failure.is_some()),
             cost_of_transport: (distance > height).then(|| work / (weight * distance)),
             distance_m: way(samples).0,
+            ended_s: ended.checked_sub(1).map_or(0.0, |last| samples[last].time_s),
             tilt_deg: samples.iter().map(tilt).fold(0.0, f64::max),
         }
     }

@@ -1,6 +1,7 @@
 //! What moves as a thing to look at: solids on its bodies, stills, the poses that a replay plays.
 
 mod frames;
+mod moving;
 mod of_mechanism;
 mod placed;
 mod shown;
@@ -9,6 +10,7 @@ mod still;
 mod view;
 
 pub use frames::frames;
+pub use moving::moving;
 pub use shown::{
     DESIRED_FORCE_LENGTH, FORCE_LENGTH, Framing, Moment, Shown, ShownBody, ShownPoint,
     TORQUE_LENGTH, Tracking,

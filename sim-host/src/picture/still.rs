@@ -10,9 +10,12 @@ use std::fmt::Write;
 use surefoot::dynamics::DynamicsFault;
 use surefoot::spatial::{Pose, Quaternion};
 
-const WIDTH: f64 = 900.0;
-const HEIGHT: f64 = 640.0;
-const PIXELS_PER_METRE: f64 = 330.0;
+pub(super) const WIDTH: f64 = 900.0;
+pub(super) const HEIGHT: f64 = 640.0;
+/// Of the height of the picture, for that of the first body's centre above the floor.
+const BODY_HEIGHT: f64 = 0.567;
+/// The latter, of the robot of the text, m.
+const STANDING: f64 = 1.1;
 /// From the robot's right (it faces −x), a little behind and above: a thrown block is seen too.
 const AZIMUTH_DEG: f64 = 66.0;
 const ELEVATION_DEG: f64 = 12.0;
@@ -40,20 +43,27 @@ pub fn still(record: &dyn Record, time_s: f64) -> Result<String, DynamicsFault> 
     );
     if let Some(sample) = nearest {
         // Writing to a string cannot fail.
-        let _ = scene(&mut svg, record, times[sample], &record.moment(sample)?);
+        let _ = scene(&mut svg, record, STANDING, (times[sample], &record.moment(sample)?));
     }
     svg.push_str("</svg>\n");
     Ok(svg)
 }
 
-fn scene(svg: &mut String, record: &dyn Record, time_s: f64, moment: &Moment) -> std::fmt::Result {
+/// What there is to see at a moment, of something whose first body is so high (m) above the floor.
+pub(super) fn scene(
+    svg: &mut String,
+    record: &dyn Record,
+    height: f64,
+    (time_s, moment): (f64, &Moment),
+) -> std::fmt::Result {
     let (shown, poses) = (record.shown(), &moment.poses);
-    let center = Vector3::new(poses[0].position.x, poses[0].position.y, 0.75);
+    let [x, y, _] = poses[0].position.into();
+    let center = Vector3::new(x, y, 0.68 * height);
     let view = View::new(
         AZIMUTH_DEG.to_radians(),
         ELEVATION_DEG.to_radians(),
         center,
-        PIXELS_PER_METRE,
+        BODY_HEIGHT * HEIGHT / height,
         [WIDTH / 2.0, 0.53 * HEIGHT],
     );
     let of_groups = [BODY, LEFT_LEG, RIGHT_LEG];
