@@ -36,7 +36,7 @@ pub struct Planner<T, const FEET: usize> {
 /// What a tick asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WalkTask<T, const FEET: usize> {
-    /// For [`whole_body_tick`](crate::balance::whole_body_tick).
+    /// For [`whole_body_motion_tick`](crate::balance::whole_body_motion_tick).
     pub motion: MotionTask<T, FEET>,
     /// `ξ`, world, m.
     pub capture_point: Vector2<T>,

@@ -11,12 +11,13 @@ use std::fmt::Write;
 const PACKAGE: &str = "surefoot-panic-free";
 
 /// Images that must not be able to panic: the tick, the one within limits, the one of any robot, the one
-/// of feet that swing, quadratic programs, and the rest of core.
-const CLAIMS: [&str; 6] = [
+/// of feet that swing, the planner of walks, quadratic programs, and the rest of core.
+const CLAIMS: [&str; 7] = [
     "panic-free-tick",
     "panic-free-limited",
     "panic-free-whole-body",
     "panic-free-motion",
+    "panic-free-walk",
     "panic-free-qp",
     "panic-free-dynamics",
 ];
