@@ -1,5 +1,6 @@
 //! What a user asks of a walk.
 
+use super::bounded::bounded;
 use super::{Gait, WalkFault, WalkInput};
 use crate::Real;
 use nalgebra::Vector2;
@@ -30,7 +31,7 @@ impl<T: Real> PlaneMotion<T> {
 
     /// After a tick of `dt` seconds of going towards `wanted`, no faster than a gait's accelerations allow.
     pub(super) fn approached(&self, wanted: &Self, gait: &Gait<T>, dt: T) -> Self {
-        let toward = |from: T, to: T, most: T| from + (to - from).clamp(-most * dt, most * dt);
+        let toward = |from: T, to: T, most: T| from + bounded(to - from, -most * dt, most * dt);
         let [linear, angular] = gait.command_accelerations;
         Self {
             velocity: self.velocity.zip_map(&wanted.velocity, |x, to| toward(x, to, linear)),

@@ -1,7 +1,7 @@
 //! Walking, planned in closed form: where and when to step, how a foot swings, where the ground is to
 //! press. It knows no dynamics: it sees an [`ObservedMotion`](crate::balance::ObservedMotion) and asks for
 //! a [`MotionTask`](crate::balance::MotionTask), which
-//! [`whole_body_tick`](crate::balance::whole_body_tick) turns into torques.
+//! [`whole_body_motion_tick`](crate::balance::whole_body_motion_tick) turns into torques.
 //!
 //! ```text
 //! model, standing ─► Stature ─► Gait                                     (once)
@@ -50,6 +50,7 @@
 //! No loop is longer than the feet, or nine times of a step. A plan's arithmetic is some 300 operations, 1200
 //! while it searches.
 
+mod bounded;
 mod capture;
 mod command;
 mod fault;

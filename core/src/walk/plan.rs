@@ -36,7 +36,7 @@ pub struct Planner<T, const FEET: usize> {
 /// What a tick asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WalkTask<T, const FEET: usize> {
-    /// For [`whole_body_tick`](crate::balance::whole_body_tick).
+    /// For [`whole_body_motion_tick`](crate::balance::whole_body_motion_tick).
     pub motion: MotionTask<T, FEET>,
     /// `ξ`, world, m.
     pub capture_point: Vector2<T>,
@@ -97,12 +97,12 @@ impl<T: Real, const FEET: usize> Planner<T, FEET> {
         let is_walk = command.walk.is_some();
         let velocity = next.velocity();
         next.phase = match next.phase {
-            Phase::Standing => self.after_standing(&next, &seen, is_walk),
+            Phase::Standing => self.leave_standing(&next, &seen, is_walk),
             Phase::Single { stance, elapsed, step, swing } => {
                 Phase::Single { stance, elapsed: elapsed + dt, step, swing }
             }
             Phase::Double { stance, elapsed, old } => {
-                self.after_double(&mut next, &seen, (stance, elapsed + dt, old), is_walk)
+                self.leave_double(&mut next, &seen, (stance, elapsed + dt, old), is_walk)
             }
         };
         let asked = match next.phase {
@@ -154,7 +154,7 @@ impl<T: Real, const FEET: usize> Planner<T, FEET> {
 
     /// Starts to walk when the capture point is over the stance side, or at once where a push throws it off the
     /// feet.
-    fn after_standing(
+    fn leave_standing(
         &self,
         memory: &WalkMemory<T, FEET>,
         seen: &Seen<'_, T, FEET>,
@@ -181,7 +181,7 @@ impl<T: Real, const FEET: usize> Planner<T, FEET> {
     }
 
     /// Stands where that is wanted and holds; otherwise lifts the trailing side in time.
-    fn after_double(
+    fn leave_double(
         &self,
         memory: &mut WalkMemory<T, FEET>,
         seen: &Seen<'_, T, FEET>,

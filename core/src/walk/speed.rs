@@ -1,6 +1,7 @@
 //! The speed loop: once a step, an integral of the error of the mean velocity over the last two steps goes
 //! into the next (Raibert, chapter 2).
 
+use super::bounded::bounded;
 use super::heading::Heading;
 use super::{Gait, WalkMemory};
 use crate::Real;
@@ -32,7 +33,7 @@ pub(super) fn corrected<T: Real, const FEET: usize>(
         let mean = heading.of_world(now.center - start.center) / start.age;
         let error = (start.velocity + now.velocity) * T::of(0.5) - mean;
         let [share, most] = gait.speed_loop;
-        memory.correction = (memory.correction + error * share).map(|x| x.clamp(-most, most));
+        memory.correction = (memory.correction + error * share).map(|x| bounded(x, -most, most));
     }
     memory.touch_downs = [last, Some(now)];
 }

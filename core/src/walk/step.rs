@@ -8,6 +8,7 @@
 //! too (Khadiv, section III), by the least `J` among nine times. Always searching makes the step chase the
 //! capture point, a bit later and longer at each tick, until the robot falls.
 
+use super::bounded::bounded;
 use super::{Gait, PeriodicStep, Side, periodic_step};
 use crate::Real;
 use nalgebra::Vector2;
@@ -102,8 +103,8 @@ fn in_reach<T: Real>(
     let [backward, forward] = gait.reach;
     let [least, most] = gait.outwards;
     let clamped = Vector2::new(
-        step.x.clamp(backward, forward),
-        outside * (outside * step.y).clamp(least, most),
+        bounded(step.x, backward, forward),
+        outside * bounded(outside * step.y, least, most),
     );
     let neutral = Vector2::new(T::zero(), outside * gait.width * T::of(NEUTRAL));
     let reached = neutral + shortened(clamped - neutral, gait.farthest);

@@ -12,10 +12,11 @@
 //! (3) is Englsberger's (section V) for a centre of pressure that moves at a constant rate; `a*` is what the chosen
 //! step wants, so that (1) leaves the stance point only where no step in reach does all.
 
+use super::bounded::bounded;
 use super::seen::Seen;
 use super::{Gait, PeriodicStep, PlannedStep, Side};
 use crate::Real;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
 /// (1) and (2), within what the stance side can press on; world.
 pub(super) fn single<T: Real, const FEET: usize>(
@@ -68,7 +69,7 @@ fn pressed<T: Real, const FEET: usize>(
 ) -> Vector2<T> {
     if !seen.stature.is_on_points() {
         let most = seen.stature.robot.pressure_reach * gait.margin;
-        return shift.zip_map(&most, |x, most| x.clamp(-most, most));
+        return shift.zip_map(&most, |x, most| bounded(x, -most, most));
     }
     let mut feet = seen.of_side(side).map(|foot| foot.position.xy());
     let (Some(first), Some(second)) = (feet.next(), feet.next()) else { return Vector2::zeros() };
@@ -77,7 +78,7 @@ fn pressed<T: Real, const FEET: usize>(
     if !(squared > T::zero()) {
         return Vector2::zeros();
     }
-    half * (shift.dot(&half) / squared).clamp(-gait.margin, gait.margin)
+    half * bounded(shift.dot(&half) / squared, -gait.margin, gait.margin)
 }
 
 /// How far the capture point lies beyond the rectangle around all soles along the heading axes, m; negative
@@ -90,13 +91,14 @@ pub(super) fn beyond<T: Real, const FEET: usize>(seen: &Seen<'_, T, FEET>) -> T 
         for (along, across) in
             [(half.x, half.y), (half.x, -half.y), (-half.x, half.y), (-half.x, -half.y)]
         {
-            let corner =
-                foot.position + foot.rotation.column(0) * along + foot.rotation.column(1) * across;
+            let corner = foot.position + foot.rotation * Vector3::new(along, across, T::zero());
             let corner = seen.heading.of_world(corner.xy());
-            farthest =
-                Some(farthest.map_or((corner, corner), |(least, most)| {
-                    (least.inf(&corner), most.sup(&corner))
-                }));
+            farthest = Some(farthest.map_or((corner, corner), |(least, most)| {
+                (
+                    Vector2::new(least.x.min(corner.x), least.y.min(corner.y)),
+                    Vector2::new(most.x.max(corner.x), most.y.max(corner.y)),
+                )
+            }));
         }
     }
     let Some((least, most)) = farthest else { return T::zero() };

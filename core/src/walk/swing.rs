@@ -11,6 +11,7 @@
 //! down at the landing speed until it feels the ground.
 
 use super::Gait;
+use super::bounded::bounded;
 use super::heading::{wrapped, yaw};
 use super::orientation::level;
 use super::step::FOOT_LAG;
@@ -91,7 +92,7 @@ impl<T: Real> SwingFoot<T> {
         } else {
             self.acceleration = -self.velocity.xy() / last;
         }
-        self.acceleration = self.acceleration.map(|a| a.clamp(-most_level, most_level));
+        self.acceleration = self.acceleration.map(|a| bounded(a, -most_level, most_level));
 
         let (height, speed) = (self.position.z, self.velocity.z);
         let to_apex = duration * T::of(APEX_AT) - to.elapsed;
@@ -103,7 +104,7 @@ impl<T: Real> SwingFoot<T> {
             (gait.landing_speed - speed) / time(FOOT_LAG)
         };
         let acceleration =
-            Vector3::new(self.acceleration.x, self.acceleration.y, vertical.clamp(-most, most));
+            Vector3::new(self.acceleration.x, self.acceleration.y, bounded(vertical, -most, most));
         self.position += self.velocity * dt + acceleration * (dt * dt * T::of(0.5));
         self.velocity += acceleration * dt;
         let deepest = to.ground - gait.height * T::of(DEEPEST);

@@ -8,8 +8,17 @@ use std::path::Path;
 
 /// Built-in scenes that have no joint, and those whose bodies touch a floor.
 const WITHOUT_JOINTS: [&str; 2] = ["rigid-body", "box-drop"];
-const ON_A_FLOOR: [&str; 6] =
-    ["experiment-1", "experiment-1-pushes", "experiment-2", "stand", "stand-loaded", "box-drop"];
+const ON_A_FLOOR: [&str; 9] = [
+    "experiment-1",
+    "experiment-1-pushes",
+    "experiment-2",
+    "stand",
+    "stand-loaded",
+    "walk",
+    "walk-pushed",
+    "turn",
+    "box-drop",
+];
 
 fn names(folder: &Path) -> Vec<String> {
     let (status, stdout, stderr) = said(&surefoot(folder, &["list", "--json"]));

@@ -8,13 +8,13 @@
 #![cfg_attr(target_os = "none", no_std)]
 
 use core::hint::black_box;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector2, Vector3};
 use surefoot::balance::{
     ContactLimits, ContactPatch, Controller, FootLimits, FootTask, Gains, Ground, LeggedRobot,
-    LimitMemory, LinearTask, MotionTask, Reference, RobotState, Sole, Supervisor, WholeBody,
-    WholeBodyController, WholeBodyFoot, WholeBodyMemory, WholeBodySettings, WholeBodyState,
-    WorkspaceForm, WrenchLimits, limited_tick, observe, tick, whole_body_motion_tick,
-    whole_body_tick,
+    LimitMemory, LinearTask, MotionTask, ObservedFoot, ObservedMotion, Reference, RobotState, Sole,
+    Supervisor, WholeBody, WholeBodyController, WholeBodyFoot, WholeBodyMemory, WholeBodySettings,
+    WholeBodyState, WorkspaceForm, WrenchLimits, limited_tick, observe, tick,
+    whole_body_motion_tick, whole_body_tick,
 };
 use surefoot::disturbance::{
     DisturbanceObserver, DisturbanceSettings, ForceContact, ForceThresholds, friction_compensation,
@@ -22,6 +22,7 @@ use surefoot::disturbance::{
 };
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
+use surefoot::walk::{Planner, Side, StandingRobot, Stature, WalkCommand, WalkMemory};
 
 static ROBOT: LeggedRobot<f32, 2> = LeggedRobot::new(&biped::TREE).to_f32();
 
@@ -55,6 +56,45 @@ pub fn opaque_tick() {
     };
     let (state, reference) = crouching();
     let _ = black_box(tick(&controller, &state, &reference));
+}
+
+/// Measures of a robot, and two ticks of a walk's plan, from anything.
+#[inline(always)]
+pub fn opaque_plan() {
+    let foot = ObservedFoot {
+        position: Vector3::new(0.0, 0.1, 0.0),
+        rotation: Matrix3::identity(),
+        velocity: Vector3::zeros(),
+        angular_velocity: Vector3::zeros(),
+        leg: Vector3::new(0.0, 0.0, -0.7),
+    };
+    let observed = black_box(ObservedMotion {
+        center_of_mass: Vector3::new(0.0, 0.0, 0.8),
+        velocity: Vector3::zeros(),
+        angular_momentum: Vector3::zeros(),
+        central_rotation: Matrix3::identity(),
+        angular_velocity: Vector3::zeros(),
+        feet: [foot; 4],
+    });
+    let robot = black_box(StandingRobot {
+        mass: 70.0_f32,
+        gravity: 9.81,
+        leg_length: 0.9,
+        forward: 0.0,
+        sole: Vector2::new(0.1, 0.05),
+        pressure_reach: Vector2::new(0.1, 0.05),
+    });
+    let sides = black_box([Some(Side::Left), Some(Side::Right), None, None]);
+    let Ok(stature) = Stature::measured(&robot, &sides, &observed) else { return };
+    let planner = black_box(Planner::new(stature));
+    let mut memory = black_box(WalkMemory::standing(0.0));
+    let command = black_box(WalkCommand::walk(Vector2::new(0.5, 0.0), 0.1));
+    for _ in 0..2 {
+        memory = black_box(memory);
+        let forces = black_box([350.0; 4]);
+        let task = planner.plan(&mut memory, &observed, &forces, &command, black_box(2e-3));
+        let _ = black_box(task);
+    }
 }
 
 /// The same within limits, under a supervisor, with a memory of anything.

@@ -11,13 +11,14 @@ use std::fmt::Write;
 const PACKAGE: &str = "surefoot-panic-free";
 
 /// Images that must not be able to panic: the tick, the one within limits, the one of any robot, the one of feet
-/// that swing, the observer, quadratic programs, the state estimator, and the rest of core.
-const CLAIMS: [&str; 8] = [
+/// that swing, the planner of walks, the observer, quadratic programs, the state estimator, and the rest of core.
+const CLAIMS: [&str; 9] = [
     "panic-free-tick",
     "panic-free-limited",
     "panic-free-whole-body",
     "panic-free-motion",
     "panic-free-observer",
+    "panic-free-walk",
     "panic-free-qp",
     "panic-free-dynamics",
     "panic-free-estimate",
