@@ -10,7 +10,7 @@
 //! with `b` the point's acceleration for joints at their posture's accelerations `θ̈₀` and a central body
 //! whose twist does not change; `a = −k v` of a pressing foot, from its velocity v.
 
-use super::leg_inverse::{ByJoint, DIRECTIONS, direct_leg_inverse, leg_inverse};
+use super::leg_inverse::{ByJoint, DIRECTIONS, leg_inverse};
 use super::robot::{Leg, MOST_LEG_JOINTS};
 use crate::Real;
 use crate::dynamics::BodyKinematics;
@@ -63,15 +63,13 @@ pub(super) struct Place<'a, T> {
     pub body: &'a BodyKinematics<T>,
     /// By the leg's joints, frame 1.
     pub screws: [Twist<T>; MOST_LEG_JOINTS],
-    /// Whether `J⁺` is found by elimination where it can be. Otherwise it has the bits of earlier versions.
-    pub is_direct: bool,
 }
 
 impl<T: Real> Contact<T> {
     /// `None` for numbers that are not finite.
     #[inline(always)]
     pub fn new(leg: &Leg<T>, place: &Place<'_, T>, asked: &Asked<T>, damping: T) -> Option<Self> {
-        let Place { central, body, screws, is_direct } = place;
+        let Place { central, body, screws } = place;
         let from_body = central.tr_mul(&body.pose.rotation);
         let moments = leg.foot.limits.patch.moments();
         let [x, y, z] = moments;
@@ -119,11 +117,7 @@ impl<T: Real> Contact<T> {
             let [x, y, z, a, b, c] = *column;
             *scaled = [x * per_reach, y * per_reach, z * per_reach, a, b, c];
         }
-        let found = if *is_direct {
-            direct_leg_inverse(&scaled, leg.count, &directions, damping)?
-        } else {
-            leg_inverse(&scaled, leg.count, &directions, damping)?
-        };
+        let found = leg_inverse(&scaled, leg.count, &directions, damping)?;
         let inverse = found
             .inverse
             .map(|[x, y, z, a, b, c]| [x * per_reach, y * per_reach, z * per_reach, a, b, c]);

@@ -10,12 +10,10 @@
 //! with `d = 1/‖J⁺‖²` of the exact inverse (Frobenius' norm): between a sixth of the square of the least
 //! singular value and that square. So an inverse is exact until the leg is near a singular posture, grows
 //! to no more than about `1/2ε₀`, and does not jump in between (Nakamura and Hanafusa, *ASME J. Dyn. Syst.* 108, 1986). An exact one is
-//! refined once, `J⁺ ← J⁺ (2 − J J⁺)`, as (1) squares the condition; or, of a leg with as many joints as
-//! directions, found by elimination, at a third of the cost.
+//! refined once, `J⁺ ← J⁺ (2 − J J⁺)`, as (1) squares the condition.
 
 use super::robot::MOST_LEG_JOINTS;
 use crate::Real;
-use crate::balance::square::Square;
 use crate::qp::Ldl;
 
 /// Directions of a contact.
@@ -30,54 +28,6 @@ pub(super) struct LegInverse<T> {
     pub inverse: ByJoint<T>,
     /// `ε²`
     pub damping: T,
-}
-
-/// The same of a leg with as many joints as directions by elimination, and of any other by [`leg_inverse`].
-#[inline(always)]
-pub(super) fn direct_leg_inverse<T: Real>(
-    columns: &ByJoint<T>,
-    count: usize,
-    directions: &[bool; DIRECTIONS],
-    least: T,
-) -> Option<LegInverse<T>> {
-    let (zero, one) = (T::zero(), T::one());
-    if directions.iter().filter(|exists| **exists).count() == count {
-        let mut rows = [[zero; DIRECTIONS]; DIRECTIONS];
-        for (j, column) in columns.iter().enumerate().take(count) {
-            for (row, x) in rows.iter_mut().zip(column) {
-                if let Some(entry) = row.get_mut(j) {
-                    *entry = *x;
-                }
-            }
-        }
-        // A direction that does not exist has a joint of its own.
-        let mut spare = count;
-        for (row, exists) in rows.iter_mut().zip(directions) {
-            if let Some(entry) = row.get_mut(spare).filter(|_| !exists) {
-                *entry = one;
-                spare += 1;
-            }
-        }
-        if let Some(factors) = Square::new(rows, zero) {
-            let mut inverse = [[zero; DIRECTIONS]; MOST_LEG_JOINTS];
-            let mut squares = zero;
-            for (direction, _) in directions.iter().enumerate().filter(|(_, exists)| **exists) {
-                let mut unit = [zero; DIRECTIONS];
-                unit[direction] = one;
-                for (row, x) in inverse.iter_mut().zip(factors.solve(&unit)).take(count) {
-                    squares += x * x;
-                    if let Some(entry) = row.get_mut(direction) {
-                        *entry = x;
-                    }
-                }
-            }
-            // NaN compares as false.
-            if one >= squares * least * least * T::of(4.0) {
-                return Some(LegInverse { inverse, damping: zero });
-            }
-        }
-    }
-    leg_inverse(columns, count, directions, least)
 }
 
 /// (1) for the first `count` columns of `J`; the rows of others are zero. `None` for numbers that are not

@@ -75,7 +75,7 @@ pub fn whole_body_tick<
         let Some(leg) = leg.as_ref().filter(|_| *touches) else { continue };
         let body = kinematics.get(leg.foot.body).ok_or(Fault::NotHeld)?;
         let of_leg = leg.joints.map(|joint| screws.get(joint).copied().unwrap_or(Twist::zero()));
-        let from = Place { central: &central.rotation, body, screws: of_leg, is_direct: false };
+        let from = Place { central: &central.rotation, body, screws: of_leg };
         let contact = Contact::new(leg, &from, &Asked::Rest(settings.rest_rate), settings.damping);
         let contact = contact.ok_or(Fault::Overflow)?;
         for (joint, more) in contact.joints.iter().zip(contact.correction()).take(contact.count) {

@@ -153,7 +153,7 @@ fn set_feet<T: Real, const N: usize, const NQ: usize, const NV: usize, const FEE
         let Some(leg) = leg else { continue };
         let body = kinematics.get(leg.foot.body).ok_or(Fault::NotHeld)?;
         let of_leg = leg.joints.map(|joint| screws.get(joint).copied().unwrap_or(Twist::zero()));
-        let from = Place { central: &central.rotation, body, screws: of_leg, is_direct: true };
+        let from = Place { central: &central.rotation, body, screws: of_leg };
         let asked = match task {
             FootTask::Press { .. } => Asked::Rest(settings.rest_rate),
             FootTask::Swing { linear, angular } => {
