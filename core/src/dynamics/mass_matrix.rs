@@ -124,11 +124,27 @@ fn row<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     // The path to the inertial frame has at most N joints, since numbers decrease along it.
     while let Some((node, turn)) = at.and_then(|j| tree.nodes.get(j).zip(joint_poses.turns.get(j)))
     {
-        let columns = if at == Some(k) { i + 1 } else { node.kind.degrees_of_freedom() };
-        let products = joint_products(node, joint_poses, &wrench);
-        for (j, product) in products.into_iter().enumerate().take(columns) {
-            set(matrix, row, node.velocity_start + j, product);
-            set(matrix, node.velocity_start + j, row, product);
+        let first = node.velocity_start;
+        match &node.kind {
+            JointKind::Fixed => {}
+            // The joint that robots are made of.
+            JointKind::Revolute(axis) => {
+                let product = match axis {
+                    Axis::X => wrench.torque.x,
+                    Axis::Y => wrench.torque.y,
+                    Axis::Z => wrench.torque.z,
+                };
+                set(matrix, row, first, product);
+                set(matrix, first, row, product);
+            }
+            _ => {
+                let columns = if at == Some(k) { i + 1 } else { node.kind.degrees_of_freedom() };
+                let products = joint_products(node, joint_poses, &wrench);
+                for (j, product) in products.into_iter().enumerate().take(columns) {
+                    set(matrix, row, first + j, product);
+                    set(matrix, first + j, row, product);
+                }
+            }
         }
         if node.inboard.is_some() {
             let pose = relative(node, *turn, &joint_poses.positions);
@@ -138,7 +154,7 @@ fn row<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     }
 }
 
-/// `H_jᵀ F`.
+/// `H_jᵀ F` of joints that are not revolute.
 #[inline(always)]
 fn joint_products<T: Real, const N: usize, const NQ: usize>(
     node: &Node<T>,
@@ -147,10 +163,6 @@ fn joint_products<T: Real, const N: usize, const NQ: usize>(
 ) -> [T; 6] {
     let mut products = [T::zero(); 6];
     match &node.kind {
-        JointKind::Fixed => {}
-        JointKind::Revolute(Axis::X) => products[0] = wrench.torque.x,
-        JointKind::Revolute(Axis::Y) => products[0] = wrench.torque.y,
-        JointKind::Revolute(Axis::Z) => products[0] = wrench.torque.z,
         JointKind::Floating => products = wrench.to_array(),
         _ => {
             let motion = JointMotion::new(node, &joint_poses.positions, &[T::zero(); 6]);
