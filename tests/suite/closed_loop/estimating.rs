@@ -39,7 +39,7 @@ fn errors(run: &Run) -> WorstErrors {
     WorstErrors::of(&run.samples).expect("an estimator")
 }
 
-/// Nothing but the method's own errors: means over a tick, rates behind their pole.
+/// Nothing but the method's own errors: means over a tick, feet that rock.
 #[test]
 fn exact_sensors_give_the_truth_back() {
     let WorstErrors { last, worst } = errors(&play(&stand(exact())));
@@ -76,6 +76,21 @@ fn pushes_are_survived() {
             assert!(run.failure.is_none(), "{share} {degrees}°: {:?}", run.failure);
             assert!(last.error_distance() < 0.05, "{degrees}°: {} m", last.error_distance());
         }
+    }
+}
+
+/// It drops from 5 mm, rises and turns by 15°; and takes the block.
+#[test]
+fn the_experiments_balance_by_an_estimate() {
+    for (name, sensing) in
+        [("experiment-1", exact()), ("experiment-1", standard()), ("experiment-2", exact())]
+    {
+        let scene = Scene { sensing, ..load(name).expect("built in") };
+        let run = play(&scene);
+        let errors = WorstErrors::of(&run.samples).expect("an estimator");
+        println!("{name}: {:?} {errors:?} {:?}", run.failure, run.estimate);
+        assert!(run.failure.is_none(), "{name}: {:?}", run.failure);
+        assert!(errors.last.position_error_m < 0.03, "{name}: {errors:?}");
     }
 }
 
