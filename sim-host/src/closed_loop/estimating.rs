@@ -17,8 +17,6 @@ use surefoot::spatial::{Pose, Quaternion};
 const FEET: usize = 4;
 /// A foot's switch closes at this share of the robot's weight: 20 N of a person's.
 const SWITCH_SHARE: f64 = 0.03;
-/// Joint rates are differences over a tick, behind one pole, Hz.
-const RATE_POLE_HZ: f64 = 60.0;
 
 /// What the estimator has said over a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -48,9 +46,6 @@ pub(super) struct Estimating {
     settings: Estimator<f64, FEET>,
     state: Option<EstimatorState<f64, FEET>>,
     sensor: InertialSensor,
-    /// Rates behind the pole, and the share of a new one.
-    rates: Vec<f64>,
-    share: f64,
     pressed: [bool; FEET],
     planned: [bool; FEET],
     /// For the next tick alone.
@@ -83,8 +78,6 @@ impl Estimating {
             feet,
             state: None,
             sensor: InertialSensor::new(sensing, period_s, gravity),
-            rates: vec![0.0; robot.joint_count()],
-            share: -(-std::f64::consts::TAU * RATE_POLE_HZ * period_s).exp_m1(),
             pressed: [false; FEET],
             planned: [true; FEET],
             feet_force: None,
@@ -121,10 +114,6 @@ impl Estimating {
     /// # Errors
     /// The estimator's fault.
     pub fn read(&mut self, truth: &PlantState, seen: &mut PlantState) -> Result<(), EstimateFault> {
-        for (filtered, rate) in self.rates.iter_mut().zip(&mut seen.velocities[6..]) {
-            *filtered += self.share * (*rate - *filtered);
-            *rate = *filtered;
-        }
         let imu = self.sensor.read(truth);
         let feet = self.foot_poses(&seen.positions[7..]);
         let feet = std::array::from_fn(|foot| FootReading {
