@@ -7,16 +7,16 @@ use surefoot_sim::scene::{Push, Scene, StateSource, load};
 
 fn main() {
     let seconds = std::env::args().nth(1).and_then(|x| x.parse().ok()).unwrap_or(8.0);
-    println!("{:<34}{:>26}{:>26}", "", "true state", "estimator");
+    println!("{:<36}{:>28}{:>28}", "", "true state", "estimator");
     for (name, change) in CASES {
-        print!("{name:<34}");
+        print!("{name:<36}");
         for state in [StateSource::Truth, StateSource::Estimate] {
             let mut scene = load("stand-loaded").expect("built in");
             scene.plant = Default::default();
             scene.sensing.state = state;
             scene.duration_s = seconds;
             change(&mut scene);
-            print!("{:>26}", outcome(&scene));
+            print!("{:>28}", outcome(&scene));
         }
         println!();
     }

@@ -68,6 +68,7 @@ mod tests {
             limits: None,
             cut_torques: crate::closed_loop::CutTorques::default(),
             stop: None,
+            estimate: None,
         }
     }
 
