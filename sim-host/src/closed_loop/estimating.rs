@@ -18,10 +18,8 @@ const FEET: usize = 4;
 /// A foot's switch closes at this share of the robot's weight: 20 N of a person's.
 const SWITCH_SHARE: f64 = 0.03;
 /// Of the direction in which the feet's forces are found, m/s²/√Hz: a tenth in variance of core's starting value, with
-/// which a sensor that is askew by 1.5° still tilts the robot by 0.9° after 6 s.
+/// which a sensor that is askew by 1.5° takes twice as long to be righted.
 const FORCE_DIRECTION: f64 = 0.03;
-/// Joint rates are differences over a tick, behind one pole, Hz.
-const RATE_POLE_HZ: f64 = 60.0;
 
 /// What the estimator has said over a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -51,9 +49,6 @@ pub(super) struct Estimating {
     settings: Estimator<f64, FEET>,
     state: Option<EstimatorState<f64, FEET>>,
     sensor: InertialSensor,
-    /// Rates behind the pole, and the share of a new one.
-    rates: Vec<f64>,
-    share: f64,
     pressed: [bool; FEET],
     planned: [bool; FEET],
     /// For the next tick alone.
@@ -85,8 +80,6 @@ impl Estimating {
             feet,
             state: None,
             sensor: InertialSensor::new(sensing, period_s, gravity),
-            rates: vec![0.0; robot.joint_count()],
-            share: -(-std::f64::consts::TAU * RATE_POLE_HZ * period_s).exp_m1(),
             pressed: [false; FEET],
             planned: [true; FEET],
             feet_force: None,
@@ -123,10 +116,6 @@ impl Estimating {
     /// # Errors
     /// The estimator's fault.
     pub fn read(&mut self, truth: &PlantState, seen: &mut PlantState) -> Result<(), EstimateFault> {
-        for (filtered, rate) in self.rates.iter_mut().zip(&mut seen.velocities[6..]) {
-            *filtered += self.share * (*rate - *filtered);
-            *rate = *filtered;
-        }
         let imu = self.sensor.read(truth);
         let feet = self.foot_poses(&seen.positions[7..]);
         let feet = std::array::from_fn(|foot| FootReading {

@@ -6,7 +6,7 @@ use super::friction::Friction;
 use super::limiting::{
     FRICTION_SHARE, LimitTally, MOST_WEIGHTS, SOLE_SHARE, WorstLimit, friction, named,
 };
-use super::supervised::{recorded, remembered};
+use super::supervised::{of_state, recorded, remembered};
 use crate::plant::PlantState;
 use crate::record;
 use crate::robot::{Contacts, LEG, SharedRobot, stance};
@@ -256,7 +256,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
         scene: &Scene,
     ) -> Self {
         let period = T::of(1.0 / scene.controller.rate_hz);
-        let mut supervisor = Supervisor::new(limits, period)
+        let mut supervisor = Supervisor::new(of_state(limits, scene), period)
             .expect("limits of the robot, period of a checked scene");
         supervisor.arm();
         Self { inner, supervisor }

@@ -208,8 +208,8 @@ mod tests {
                 ["sensing.state", "noise", "`accelerometer_bias` is given"],
             ),
             (
-                "[sensing]\nstate = \"estimate\"\naccelerometer_bias = [0.1, nan, 0.0]",
-                ["sensing.accelerometer_bias", "[0.1, nan, 0.0]", "5 m/s²"],
+                "[sensing]\nstate = \"estimate\"\naccelerometer_bias = [0.1, 6.0, 0.0]",
+                ["sensing.accelerometer_bias", "[0.1, 6.0, 0.0]", "5 m/s²"],
             ),
             (
                 "[sensing]\nstate = \"estimate\"\ncorrection_s = 0.5",

@@ -39,7 +39,7 @@ fn errors(run: &Run) -> WorstErrors {
     WorstErrors::of(&run.samples).expect("an estimator")
 }
 
-/// Nothing but the method's own errors: means over a tick, rates behind their pole.
+/// Nothing but the method's own errors: means over a tick, feet that rock.
 #[test]
 fn exact_sensors_give_the_truth_back() {
     let WorstErrors { last, worst } = errors(&play(&stand(exact())));
@@ -49,25 +49,48 @@ fn exact_sensors_give_the_truth_back() {
     assert!(worst.velocity_error_m_s < 5e-3, "{worst:?}");
 }
 
-/// The accelerometer's bias across gravity is the tilt, 0.83°; it stands all the same, and takes nine tenths of the
-/// pushes that it takes when it knows the truth.
+/// The accelerometer's bias across gravity is the tilt, 0.83°, and a set point off by 18 mm; it stands all the same.
 #[test]
-fn standard_biases_stand_and_take_pushes() {
+fn standard_biases_stand() {
     let EstimateErrors { tilt_error_rad, position_error_m, heading_error_rad, .. } =
         errors(&play(&stand(standard()))).last;
     let bias = (0.1 * 2_f64.sqrt() / 9.81).atan();
     println!("{tilt_error_rad} {bias} {position_error_m} {heading_error_rad}");
     assert!((tilt_error_rad - bias).abs() < 0.1_f64.to_radians(), "{tilt_error_rad}");
-    assert!(position_error_m < 0.03 && heading_error_rad < 2e-3, "{position_error_m}");
-    for (impulse, degrees) in [(0.9 * 23.0, 180.0_f64), (0.9 * 36.0, 90.0), (0.9 * 32.0, 0.0)] {
-        let mut scene = stand(standard());
-        let (sine, cosine) = degrees.to_radians().sin_cos();
-        let force_n = [impulse / 0.1 * cosine, impulse / 0.1 * sine, 0.0];
-        scene.pushes = vec![Push { at_s: 0.7, duration_s: 0.1, force_n }];
+    assert!(position_error_m < 0.025 && heading_error_rad < 1e-3, "{position_error_m}");
+}
+
+/// By exact sensors it takes nine tenths of the pushes that it takes by the truth. With standard biases it leans back
+/// and to a side by 2 cm: it takes more backwards, and four fifths forwards and to that side.
+#[test]
+fn pushes_are_survived() {
+    for (sensing, share) in [(exact(), 0.9), (standard(), 0.75)] {
+        for (limit, degrees) in [(23.0, 180.0_f64), (36.0, 90.0), (32.0, 0.0)] {
+            let mut scene = stand(sensing.clone());
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            let force = share * limit / 0.1;
+            let force_n = [force * cosine, force * sine, 0.0];
+            scene.pushes = vec![Push { at_s: 0.7, duration_s: 0.1, force_n }];
+            let run = play(&scene);
+            let last = run.samples.last().expect("samples");
+            assert!(run.failure.is_none(), "{share} {degrees}°: {:?}", run.failure);
+            assert!(last.error_distance() < 0.05, "{degrees}°: {} m", last.error_distance());
+        }
+    }
+}
+
+/// It drops from 5 mm, rises and turns by 15°; and takes the block.
+#[test]
+fn the_experiments_balance_by_an_estimate() {
+    for (name, sensing) in
+        [("experiment-1", exact()), ("experiment-1", standard()), ("experiment-2", exact())]
+    {
+        let scene = Scene { sensing, ..load(name).expect("built in") };
         let run = play(&scene);
-        let last = run.samples.last().expect("samples");
-        assert!(run.failure.is_none(), "{degrees}°: {:?}", run.failure);
-        assert!(last.error_distance() < 0.05, "{degrees}°: {} m", last.error_distance());
+        let errors = WorstErrors::of(&run.samples).expect("an estimator");
+        println!("{name}: {:?} {errors:?} {:?}", run.failure, run.estimate);
+        assert!(run.failure.is_none(), "{name}: {:?}", run.failure);
+        assert!(errors.last.position_error_m < 0.03, "{name}: {errors:?}");
     }
 }
 
