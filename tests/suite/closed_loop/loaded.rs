@@ -111,7 +111,7 @@ fn a_slope_is_stood_on_by_sensors_alone() {
 }
 
 /// Dry friction of 2 N·m in every joint that nobody knows, with the true state: 0.05 mm, 0.05°. By sensors alone the robot
-/// sways within 7 mm (`cargo run --release -p surefoot-tests --example disturbances`).
+/// sways within 7 mm (`cargo run --release --example disturbances`).
 #[test]
 fn friction_is_no_wrench_that_wanders() {
     let mut scene = without_load();
