@@ -7,6 +7,18 @@
 //! ```
 //! A [`DisturbanceObserver`] runs these one after another; each stage is public. A robot that uses none
 //! of it runs no instruction of it.
+//!
+//! # Cost
+//! Of [`DisturbanceObserver::update`] for the biped on two soles in f32, instructions on a Cortex-M4F: 19 500, of which
+//! inverse dynamics at the state before take 6 900, joints' and bodies' poses 4 700, the feet's forces 4 200. It holds
+//! 540 bytes. In f32 forces are within 5e-4 N of f64's, the set point within 4 µm, for a robot of 10 to 50 kg.
+//!
+//! # Limits
+//! - Torques are believed: one that is off by 5 % reads as 5 % of the weight. Dry friction that nobody knows reads as a
+//!   wrench; with 2 N·m in each of the biped's joints and an estimated state it sways by 7 mm.
+//! - A foot that counts as a point but touches the ground elsewhere, on a sole that its leg cannot turn, reads as a force
+//!   that is off by that distance over the leg's length.
+//! - Legs whose joints do not feel a direction (a straight knee) read little of it.
 
 mod balance_point;
 mod external_wrench;

@@ -70,6 +70,7 @@ mod tests {
             estimate: None,
             cut_torques: crate::closed_loop::CutTorques::default(),
             stop: None,
+            estimate: None,
         }
     }
 

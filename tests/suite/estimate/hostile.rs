@@ -64,7 +64,8 @@ fn a_start_in_motion_or_with_bad_settings_is_refused() {
         let fault = EstimateFault::NotUsable(EstimateInput::StartPose);
         assert_eq!(start(&settings, GRAVITY, pose), Err(fault));
     }
-    let bad: [(fn(&mut Estimator<f64, 2>), &str); 8] = [
+    type Change = fn(&mut Estimator<f64, 2>);
+    let bad: [(Change, &str); 8] = [
         (|s| s.period_s = 0.0, "period_s"),
         (|s| s.gravity = f64::NAN, "gravity"),
         (|s| s.noise.leg_position = 0.0, "noise"),
