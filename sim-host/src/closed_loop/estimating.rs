@@ -72,10 +72,9 @@ impl Estimating {
         });
         let gravity = robot.tree.gravity();
         // Floors of scenes yield.
-        let settings = Estimator {
-            noise: SensorNoise::yielding_ground(),
-            ..Estimator::new(period_s, gravity.norm(), kinds)
-        };
+        let noise =
+            SensorNoise { force_direction: FORCE_DIRECTION, ..SensorNoise::yielding_ground() };
+        let settings = Estimator { noise, ..Estimator::new(period_s, gravity.norm(), kinds) };
         Self {
             settings,
             feet,

@@ -67,7 +67,6 @@ mod tests {
             costs: None,
             limits: None,
             gait: None,
-            estimate: None,
             cut_torques: crate::closed_loop::CutTorques::default(),
             stop: None,
             estimate: None,
