@@ -27,3 +27,66 @@ pub mod firmware {
     /// See `POSITION`.
     pub const ORIENTATION: [f32; 4] = [1.0, 0.0, 0.0, 0.0];
 }
+
+/// The same for the whole-body controller, which walks too.
+#[rustfmt::skip]
+pub mod whole_body {
+#[allow(unused_imports)]
+use surefoot::balance::{ContactLimits, ContactPatch, JointDamping, JointLimits};
+#[allow(unused_imports)]
+use surefoot::balance::{SafetyLimits, Thresholds, WholeBodyFoot};
+#[allow(unused_imports)]
+use surefoot::model::{Link, Tree};
+use surefoot::spatial::{Quaternion, Vector3};
+use surefoot::model::robots::biped;
+
+/// Of all below, by which the other end of the link knows them.
+pub const FINGERPRINT: u32 = 0xcd9b1c34;
+/// Joints, which are the tree's bodies but the central one.
+pub const JOINTS: usize = 12;
+/// Bodies of the tree.
+pub const NODES: usize = 13;
+/// Its coordinates.
+pub const COORDINATES: usize = 19;
+/// Its velocities.
+pub const VELOCITIES: usize = 18;
+/// Rows of six that the joints fill.
+pub const ROWS: usize = 2;
+
+/// Of all joints.
+pub const TREE: Tree<f32, NODES, COORDINATES, VELOCITIES> =
+    biped::TREE.to_f32();
+
+/// Its feet. What the ground gives them is said by a message.
+pub const FEET: [Option<WholeBodyFoot<f32>>; 4] = [
+Some(WholeBodyFoot {
+    body: 6,
+    reference: Vector3::new(-0.027263382, 0.0, -0.031022627),
+    axes: Quaternion { s: 0.9972197, v: Vector3::new(0.0, 0.07451751, 0.0) },
+    limits: ContactLimits {
+        least_force: 0.0,
+        greatest_force: 0.0,
+        friction: 0.0,
+        patch: ContactPatch::<f32>::centered([0.115828, 0.046]),
+        torques: [],
+    },
+}),
+Some(WholeBodyFoot {
+    body: 12,
+    reference: Vector3::new(-0.027263382, 0.0, -0.031022627),
+    axes: Quaternion { s: 0.9972197, v: Vector3::new(0.0, 0.07451751, 0.0) },
+    limits: ContactLimits {
+        least_force: 0.0,
+        greatest_force: 0.0,
+        friction: 0.0,
+        patch: ContactPatch::<f32>::centered([0.115828, 0.046]),
+        torques: [],
+    },
+}),
+None,
+None,
+];
+
+/// What its supervisor allows: messages may be tighter, and no wider.
+pub const LIMITS: SafetyLimits<f32, ROWS> = biped::LIMITS.to_f32();
+}

@@ -4,20 +4,27 @@
 #[allow(dead_code, missing_docs, clippy::all)]
 mod of_file {
     include!(concat!(env!("OUT_DIR"), "/robot.rs"));
+    #[cfg(not(walks))]
+    pub use described::firmware::GAINS;
     #[cfg(not(whole_body))]
     pub use described::firmware::{FINGERPRINT, LEGS, LIMITS, ROBOT, SOLES};
-    pub use described::firmware::{GAINS, ORIENTATION, POSITION};
+    pub use described::firmware::{ORIENTATION, POSITION};
     #[cfg(whole_body)]
     pub use described::whole_body::*;
 }
 
+#[cfg(not(walks))]
 pub use of_file::GAINS;
 #[cfg(whole_body)]
 pub use of_file::{COORDINATES, FEET as ON_FEET, JOINTS, NODES, ROWS, TREE, VELOCITIES};
 #[cfg(not(whole_body))]
 pub use of_file::{LEGS as ROWS, LEGS as FEET, SOLES};
-use surefoot::balance::{Gains, Reference, SafetyLimits};
-use surefoot::spatial::{Quaternion, SymmetricMatrix3};
+#[cfg(not(walks))]
+use surefoot::balance::Gains;
+use surefoot::balance::{Reference, SafetyLimits};
+use surefoot::spatial::Quaternion;
+#[cfg(not(walks))]
+use surefoot::spatial::SymmetricMatrix3;
 use surefoot_link::{RobotId, frame_bytes};
 
 /// The robot, in flash.
@@ -60,6 +67,7 @@ const _: () = assert!(
 const _: () = assert!(JOINTS <= u8::MAX as usize && JOINTS <= ROW * ROWS);
 
 /// Gains of a message or of the robot's file, by their diagonals.
+#[cfg(not(walks))]
 pub fn gains(diagonals: [[f32; 3]; 4]) -> Gains<f32> {
     let [position, velocity, orientation, angular_velocity] =
         diagonals.map(|[x, y, z]| SymmetricMatrix3::diagonal(x, y, z));
