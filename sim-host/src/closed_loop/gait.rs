@@ -1,6 +1,6 @@
 //! How a robot has walked.
 
-use super::Run;
+use super::{Outcome, Run};
 use crate::record::Sample;
 use crate::robot::Robot;
 use nalgebra::Vector2;
@@ -62,7 +62,7 @@ impl Gait {
         Self {
             speed_m_s: if time > 0.0 { late / time } else { 0.0 },
             steps: tally.steps,
-            falls: u32::from(run.failure.is_some()),
+            falls: u32::from(matches!(run.outcome, Outcome::Fell | Outcome::Stopped)),
             cost_of_transport: (distance > height).then(|| work / (weight * distance)),
             distance_m: way(samples).0,
             tilt_deg: samples.iter().map(tilt).fold(0.0, f64::max),

@@ -66,6 +66,7 @@ mod tests {
             saved: None,
             costs: None,
             limits: None,
+            gait: None,
             cut_torques: crate::closed_loop::CutTorques::default(),
             stop: None,
         }
