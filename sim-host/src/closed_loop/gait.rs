@@ -1,6 +1,6 @@
 //! How a robot has walked.
 
-use super::Run;
+use super::{Outcome, Run};
 use crate::record::Sample;
 use crate::robot::Robot;
 use nalgebra::Vector2;
@@ -67,7 +67,7 @@ impl Gait {
         Self {
             speed_m_s: if time > 0.0 { late / time } else { 0.0 },
             steps: tally.steps,
-            falls: u32::from(run.failure.is_some()),
+            falls: u32::from(matches!(run.outcome, Outcome::Fell | Outcome::Stopped)),
             cost_of_transport: (distance > height).then(|| work / (weight * distance)),
             distance_m: way(samples).0,
             ended_s: ended.checked_sub(1).map_or(0.0, |last| samples[last].time_s),
