@@ -199,11 +199,6 @@ fn run_robot(scene: Scene, options: &Options) -> Result<ExitCode, String> {
 
 /// Refuses what a walk cannot be asked for yet.
 fn walks_here(options: &Options) -> Result<(), String> {
-    if options.controller.place == Place::Firmware {
-        return Err(
-            "--controller firmware: the target's controller stands, it does not walk".into()
-        );
-    }
     if options.save.is_some() {
         return Err("--save: what a walk remembers is not saved".into());
     }
