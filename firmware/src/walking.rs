@@ -75,7 +75,8 @@ impl Balance {
             // Starting values belong to the height of the centre of mass here.
             let stature = &walker.planner.stature;
             let (height, gravity) = (stature.height, stature.robot.gravity);
-            let own = WholeBodySettings::<f32, VELOCITIES>::walking(height, gravity, FEET);
+            let feet = stature.feet.iter().flatten().count();
+            let own = WholeBodySettings::<f32, VELOCITIES>::walking(height, gravity, feet);
             stance.settings.motion = own.motion;
             stance.settings.limits = own.limits;
             stance.settings.posture_gains = own.posture_gains;

@@ -132,7 +132,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
         let standing = body.seen(&start);
         let stature = Stature::measured(&robot, &shape.sides, &standing).expect("a robot on feet");
         // Starting values belong to the height of the centre of mass here.
-        let own = WholeBodySettings::<T, NV>::walking(stature.height, robot.gravity, FEET);
+        let own = WholeBodySettings::<T, NV>::walking(stature.height, robot.gravity, feet);
         body.settings.motion = own.motion;
         body.settings.limits = own.limits;
         body.settings.posture_gains = own.posture_gains;

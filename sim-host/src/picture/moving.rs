@@ -28,7 +28,8 @@ pub fn moving(record: &dyn Record, [from_s, to_s]: [f64; 2]) -> Result<String, D
         let Some(time) = times.get(sample) else { break };
         // Writing to a string cannot fail.
         let _ = write!(svg, "<g visibility=\"hidden\">{}", shown_at(k as f64, count));
-        let _ = scene(&mut svg, record, height, (*time, &record.moment(sample)?));
+        // Without shadows it is a third as long.
+        let _ = scene(&mut svg, record, height, false, (*time, &record.moment(sample)?));
         svg.push_str("</g>\n");
     }
     svg.push_str("</svg>\n");

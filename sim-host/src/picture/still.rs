@@ -43,7 +43,7 @@ pub fn still(record: &dyn Record, time_s: f64) -> Result<String, DynamicsFault> 
     );
     if let Some(sample) = nearest {
         // Writing to a string cannot fail.
-        let _ = scene(&mut svg, record, STANDING, (times[sample], &record.moment(sample)?));
+        let _ = scene(&mut svg, record, STANDING, true, (times[sample], &record.moment(sample)?));
     }
     svg.push_str("</svg>\n");
     Ok(svg)
@@ -54,6 +54,7 @@ pub(super) fn scene(
     svg: &mut String,
     record: &dyn Record,
     height: f64,
+    has_shadows: bool,
     (time_s, moment): (f64, &Moment),
 ) -> std::fmt::Result {
     let (shown, poses) = (record.shown(), &moment.poses);
@@ -79,7 +80,7 @@ pub(super) fn scene(
         solids.push((Placed::new(solid, &pose), BLOCK));
     }
     floor(svg, &view, center)?;
-    for (solid, _) in &solids {
+    for (solid, _) in solids.iter().filter(|_| has_shadows) {
         paint_shadow(svg, &view, solid)?;
     }
     for k in back_to_front(&solids, view.eye()) {
