@@ -126,21 +126,14 @@ impl Application {
     }
 
     fn frame(&mut self, frame: Result<ToTarget, Rejected>) {
-        let is_ours = |message: &ToTarget| message.is_of(JOINTS);
-        let frame = match frame {
-            Ok(message) if !is_ours(&message) => Err(Rejected::Malformed),
-            other => other,
-        };
+        // A message is large: it is looked at where it is.
+        if let Ok(message) = &frame
+            && !message.is_of(JOINTS)
+        {
+            return self.reject(Rejected::Malformed);
+        }
         let answer = match frame {
-            Err(rejected) => {
-                defmt::warn!("frame rejected: {}", defmt::Display2Format(&rejected));
-                // In lock step time goes on, measurement or not.
-                if self.pacing == Pacing::LockStep {
-                    board::tick_now(self.counter);
-                    self.take_records(true);
-                }
-                return;
-            }
+            Err(rejected) => return self.reject(rejected),
             Ok(ToTarget::Sensors { taken_us, sensors }) => {
                 self.post(taken_us, &sensors);
                 if self.pacing == Pacing::LockStep {
@@ -175,6 +168,15 @@ impl Application {
             Ok(ToTarget::Inject(injection)) => FromTarget::Acknowledged(self.inject(injection)),
         };
         self.send(&answer);
+    }
+
+    /// In lock step time goes on, measurement or not.
+    fn reject(&mut self, rejected: Rejected) {
+        defmt::warn!("frame rejected: {}", defmt::Display2Format(&rejected));
+        if self.pacing == Pacing::LockStep {
+            board::tick_now(self.counter);
+            self.take_records(true);
+        }
     }
 
     #[inline(never)]

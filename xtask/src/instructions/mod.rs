@@ -54,7 +54,7 @@ struct Row {
 /// Builds the program, counts, and prints.
 pub fn run(options: &Options) -> Result<()> {
     if options.unused {
-        println!("{}", nothing_unused_runs()?);
+        println!("{}", nothing_unused_runs(workspace::Built::Released)?);
         return Ok(());
     }
     let tool = provide_valgrind()?;
