@@ -146,13 +146,13 @@ impl Application {
             Ok(ToTarget::Status) => FromTarget::Status(self.status()),
             Ok(ToTarget::Configure(settings)) => FromTarget::Acknowledged(self.configure(settings)),
             Ok(ToTarget::Limit(settings)) => {
-                FromTarget::Acknowledged(self.limit(limits(&settings), None))
+                FromTarget::Acknowledged(self.limit(None, || limits(&settings)))
             }
             Ok(ToTarget::Stand(settings)) => {
-                FromTarget::Acknowledged(self.limit(standing(&settings), Some(0)))
+                FromTarget::Acknowledged(self.limit(Some(0), || standing(&settings)))
             }
             Ok(ToTarget::Walker(settings)) => {
-                FromTarget::Acknowledged(self.limit(walker(&settings), Some(1)))
+                FromTarget::Acknowledged(self.limit(Some(1), || walker(&settings)))
             }
             Ok(ToTarget::Walk(order)) => FromTarget::Acknowledged(self.walk(order)),
             Ok(ToTarget::SetPoint(pose)) => FromTarget::Acknowledged(self.set_point(pose)),
@@ -214,12 +214,17 @@ impl Application {
         answer
     }
 
+    /// What is told is large: it is made here, where no tick has it on its stack.
     #[inline(never)]
-    fn limit(&mut self, limits: Result<Limits, Acknowledged>, what: Option<usize>) -> Acknowledged {
+    fn limit(
+        &mut self,
+        what: Option<usize>,
+        limits: impl FnOnce() -> Result<Limits, Acknowledged>,
+    ) -> Acknowledged {
         if !self.on_their_way.is_standby() {
             return Acknowledged::Busy;
         }
-        let answer = match limits {
+        let answer = match limits() {
             Ok(limits) => self.order(Order::Limit(limits)),
             Err(answer) => answer,
         };

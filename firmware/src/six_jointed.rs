@@ -41,7 +41,9 @@ impl Balance {
         configure(&mut self.controller, settings);
     }
 
-    /// Within these limits from now on.
+    /// Within these limits from now on. Apart, so that no tick has its stack.
+    #[cold]
+    #[inline(never)]
     pub fn limit(&mut self, limits: Limits) {
         self.limiting = Some(Limiting { limits, memory: LimitMemory::new(), met: None });
     }

@@ -62,7 +62,9 @@ impl Balance {
         *self = Self { period: settings.period, ..Self::new() };
     }
 
-    /// How it stands or walks.
+    /// How it stands or walks. Apart, so that no tick has its stack.
+    #[cold]
+    #[inline(never)]
     pub fn limit(&mut self, limits: Limits) {
         match limits {
             Limits::Stance(stance) => self.stance = Some(stance),

@@ -35,7 +35,9 @@ impl Balance {
         *self = Self { gains: settings.gains, ..Self::new() };
     }
 
-    /// How it stands.
+    /// How it stands. Apart, so that no tick has its stack.
+    #[cold]
+    #[inline(never)]
     pub fn limit(&mut self, mut stance: Stance) {
         stance.settings.gains = gains(self.gains);
         self.stance = Some(stance);

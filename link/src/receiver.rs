@@ -115,6 +115,8 @@ impl<M: DeserializeOwned, const FRAME: usize> Receiver<M, FRAME> {
         self.window.session()
     }
 
+    /// Apart, so that what becomes of the message has not the stack of all kinds of them.
+    #[inline(never)]
     fn decode(&mut self) -> Result<M, Rejected> {
         let length = cobs::decode_in_place(&mut self.bytes).map_err(|_| Rejected::Truncated)?;
         let frame = self.bytes.get(..length).ok_or(Rejected::Truncated)?;
