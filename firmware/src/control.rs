@@ -17,6 +17,10 @@ use surefoot_link::{Pacing, SetPoint, Settings, TickLimits};
 pub const PERIOD: f32 = 1e-3;
 
 /// What the application asks of the next tick.
+#[cfg_attr(
+    whole_body,
+    expect(clippy::large_enum_variant, reason = "there is no heap for the largest")
+)]
 pub enum Order {
     /// New constants; in standby only.
     Configure(Settings<JOINTS>),
