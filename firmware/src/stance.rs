@@ -2,15 +2,12 @@
 //! all that walk.
 
 use crate::board::Counter;
-use crate::robot::{
-    COORDINATES, FEET, JOINTS, LIMITS, NODES, ON_FEET, ROW, ROWS, TREE, VELOCITIES,
-};
+use crate::robot::{COORDINATES, FEET, JOINTS, LIMITS, NODES, ON_FEET, ROW, TREE, VELOCITIES};
 use surefoot::balance::{
-    Command, ContactLimits, LimitError, LimitFault, LimitField, WholeBody, WholeBodyCommand,
-    WholeBodyFoot, WholeBodyRobotFault, WholeBodySettings,
+    ContactLimits, LimitError, LimitFault, LimitField, WholeBody, WholeBodyFoot,
+    WholeBodyRobotFault, WholeBodySettings,
 };
 use surefoot::model::Tree;
-use surefoot::spatial::Wrench;
 use surefoot_link::{
     Acknowledged, FromTarget, Sensors, SetPoint, Settings, StanceSettings, WrenchSettings,
 };
@@ -22,20 +19,6 @@ pub static MODEL: Tree<f32, NODES, COORDINATES, VELOCITIES> = TREE;
 pub struct Stance {
     pub robot: WholeBody<f32, FEET, VELOCITIES>,
     pub settings: WholeBodySettings<f32, VELOCITIES>,
-}
-
-/// A tick's answer, with joints in rows.
-pub fn command(answer: &WholeBodyCommand<f32, FEET, VELOCITIES>) -> Command<f32, ROWS> {
-    let mut joint_torques = [[0.0; ROW]; ROWS];
-    let torques = answer.torques.iter().skip(6);
-    joint_torques.as_flattened_mut().iter_mut().zip(torques).for_each(|(to, t)| *to = *t);
-    Command {
-        joint_torques,
-        desired_wrench: answer.desired_wrench,
-        foot_wrenches: [Wrench::zero(); ROWS],
-        position_error: answer.position_error,
-        orientation_error: answer.orientation_error,
-    }
 }
 
 /// These limits are of legs of six joints.

@@ -1,14 +1,14 @@
 //! The controller of a robot that walks: planner and whole-body controller.
 
 use crate::control::Measurement;
-use crate::robot::{FEET, JOINTS, ROWS, VELOCITIES};
-use crate::stance::{self, MODEL, Stance, command};
+use crate::robot::{FEET, JOINTS, ROWS};
+use crate::stance::{self, MODEL, Stance};
 use surefoot::balance::{
-    Command, Fault, Input, Reference, RobotState, WholeBodyController, WholeBodyMemory,
-    WholeBodySettings, WholeBodyState, observe, whole_body_motion_tick,
+    Command, Fault, Reference, RobotState, WholeBodyController, WholeBodyMemory, WholeBodyState,
+    observe, whole_body_motion_tick,
 };
 use surefoot::spatial::Quaternion;
-use surefoot::walk::{Planner, WalkCommand, WalkFault, WalkMemory};
+use surefoot::walk::{Planner, WalkCommand, WalkMemory};
 use surefoot_link::{
     Acknowledged, Settings, StanceSettings, TickLimits, WalkOrder, WalkerSettings,
 };
@@ -78,11 +78,7 @@ impl Balance {
             let stature = &walker.planner.stature;
             let (height, gravity) = (stature.height, stature.robot.gravity);
             let feet = stature.feet.iter().flatten().count();
-            let own = WholeBodySettings::<f32, VELOCITIES>::walking(height, gravity, feet);
-            stance.settings.motion = own.motion;
-            stance.settings.limits = own.limits;
-            stance.settings.posture_gains = own.posture_gains;
-            stance.settings.rest_rate = own.rest_rate;
+            stance.settings = stance.settings.for_walks(height, gravity, feet);
         }
         self.command = WalkCommand::stand();
         self.memory = WholeBodyMemory::new();
@@ -133,14 +129,10 @@ impl Balance {
         let controller = WholeBodyController { tree: &MODEL, robot, settings };
         let observed = observe(&controller, &WholeBodyState::of_rows(state))?;
         let motion = observed.motion(&controller)?;
-        let planned = walker.planner.plan(plan, &motion, forces, &self.command, self.period);
-        let task = planned.map_err(|fault| match fault {
-            WalkFault::Overflow => Fault::Overflow,
-            _ => Fault::NotFinite(Input::Reference),
-        })?;
+        let task = walker.planner.plan(plan, &motion, forces, &self.command, self.period)?;
         let answer = whole_body_motion_tick(&controller, &observed, &task.motion, memory)?;
         *met = Some(TickLimits::from(&answer.limits));
-        Ok(command(&answer))
+        Ok(answer.in_rows())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::control::Measurement;
 use crate::robot::{FEET, GAINS, JOINTS, ROWS, gains};
-use crate::stance::{self, MODEL, Stance, command};
+use crate::stance::{self, MODEL, Stance};
 use surefoot::balance::{
     Command, Fault, Reference, RobotState, WholeBodyController, WholeBodyMemory, WholeBodyState,
     whole_body_tick,
@@ -65,7 +65,7 @@ impl Balance {
         let state = WholeBodyState::of_rows(state);
         let answer = whole_body_tick(&controller, &state, reference, contacts, memory)?;
         *met = Some(TickLimits::from(&answer.limits));
-        Ok(command(&answer))
+        Ok(answer.in_rows())
     }
 }
 

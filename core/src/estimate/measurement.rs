@@ -4,10 +4,10 @@ use super::covariance::{
     ACCELEROMETER, Covariance, FOOT_ORIENTATION, FOOT_POSITION, POSITION, PerError, Present, TILT,
 };
 use super::predict::widen;
-use super::update::{one_row, three_rows};
+use super::update::rows;
 use crate::Real;
-use crate::spatial::Quaternion;
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use crate::spatial::{Quaternion, SymmetricMatrix3};
+use nalgebra::{Matrix1, Matrix3, SMatrix, Vector1, Vector3};
 
 /// What measurements change until the end of a tick.
 pub(super) struct Update<'a, T, const FEET: usize> {
@@ -133,13 +133,22 @@ impl<T: Real, const FEET: usize> Update<'_, T, FEET> {
     #[inline(always)]
     fn three(&mut self, q: &PerError<Matrix3<T>, FEET>, s: &Matrix3<T>, e: Vector3<T>) {
         let Self { covariance, errors, present, is_indefinite } = self;
-        *is_indefinite |= !three_rows(covariance, errors, present, q, (s, e));
+        match SymmetricMatrix3::from_matrix(s).inverse() {
+            Some(inverse) => rows(covariance, errors, present, q, (&inverse.to_matrix(), e)),
+            None => *is_indefinite = true,
+        }
     }
 
     #[inline(always)]
     fn one(&mut self, q: &PerError<Vector3<T>, FEET>, s: T, e: T) {
         let Self { covariance, errors, present, is_indefinite } = self;
-        *is_indefinite |= !one_row(covariance, errors, present, q, (s, e));
+        // NaN compares as false.
+        if s > T::zero() {
+            let inverse = Matrix1::new(T::one() / s);
+            rows(covariance, errors, present, q, (&inverse, Vector1::new(e)));
+        } else {
+            *is_indefinite = true;
+        }
     }
 }
 

@@ -12,20 +12,17 @@
 
 use super::covariance::{BODY, Covariance, PerError, Present};
 use crate::Real;
-use crate::spatial::SymmetricMatrix3;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
-/// (10) for three rows. `false`, and nothing changed, where `S` is not positive.
+/// (10) for `C` rows, with `S⁻¹` and `e`.
 #[inline(always)]
-pub(super) fn three_rows<T: Real, const FEET: usize>(
+pub(super) fn rows<T: Real, const C: usize, const FEET: usize>(
     p: &mut Covariance<T, FEET>,
     errors: &mut PerError<Vector3<T>, FEET>,
     present: &Present<FEET>,
-    q: &PerError<Matrix3<T>, FEET>,
-    (s, e): (&Matrix3<T>, Vector3<T>),
-) -> bool {
-    let Some(inverse) = SymmetricMatrix3::from_matrix(s).inverse() else { return false };
-    let inverse = inverse.to_matrix();
+    q: &PerError<SMatrix<T, 3, C>, FEET>,
+    (inverse, e): (&SMatrix<T, C, C>, SVector<T, C>),
+) {
     for j in 0..BODY {
         let gain = q.body[j] * inverse;
         errors.body[j] += gain * e;
@@ -58,55 +55,6 @@ pub(super) fn three_rows<T: Real, const FEET: usize>(
             }
         }
     }
-    true
-}
-
-/// (10) for one row. `false`, and nothing changed, where `S` is not positive.
-#[inline(always)]
-pub(super) fn one_row<T: Real, const FEET: usize>(
-    p: &mut Covariance<T, FEET>,
-    errors: &mut PerError<Vector3<T>, FEET>,
-    present: &Present<FEET>,
-    q: &PerError<Vector3<T>, FEET>,
-    (s, e): (T, T),
-) -> bool {
-    if !(s > T::zero()) {
-        return false;
-    }
-    let inverse = T::one() / s;
-    for j in 0..BODY {
-        let gain = q.body[j] * inverse;
-        errors.body[j] += gain * e;
-        for k in 0..j {
-            subtract_outer(&mut p.body[j][k], &gain, &q.body[k]);
-        }
-        subtract_outer_symmetric(&mut p.body[j][j], &gain, &q.body[j]);
-    }
-    let feet = p.feet.iter_mut().zip(&mut errors.feet).zip(present).zip(&q.feet).enumerate();
-    for (number, (((rows, error), is_present), own)) in feet {
-        for part in 0..2 {
-            if !is_present[part] {
-                continue;
-            }
-            let gain = own[part] * inverse;
-            error[part] += gain * e;
-            for k in 0..BODY {
-                subtract_outer(&mut rows.body[part][k], &gain, &q.body[k]);
-            }
-            let others = rows.feet.iter_mut().zip(&q.feet).zip(present).take(number + 1);
-            for (other, ((pair, from), is_present)) in others.enumerate() {
-                let row = &mut pair[part];
-                for k in 0..2 {
-                    if other == number && k == part {
-                        subtract_outer_symmetric(&mut row[k], &gain, &from[k]);
-                    } else if is_present[k] && (other < number || k < part) {
-                        subtract_outer(&mut row[k], &gain, &from[k]);
-                    }
-                }
-            }
-        }
-    }
-    true
 }
 
 /// Makes the upper triangle that of the lower.
@@ -119,44 +67,43 @@ pub(super) fn mirror<T: Real>(m: &mut Matrix3<T>) {
 
 /// `M − K Qᵀ`.
 #[inline(always)]
-fn subtract<T: Real>(m: &mut Matrix3<T>, gain: &Matrix3<T>, q: &Matrix3<T>) {
+fn subtract<T: Real, const C: usize>(
+    m: &mut Matrix3<T>,
+    gain: &SMatrix<T, 3, C>,
+    q: &SMatrix<T, 3, C>,
+) {
     for c in 0..3 {
         for r in 0..3 {
-            m[(r, c)] -=
-                gain[(r, 0)] * q[(c, 0)] + gain[(r, 1)] * q[(c, 1)] + gain[(r, 2)] * q[(c, 2)];
+            m[(r, c)] -= product(gain, q, (r, c));
         }
     }
 }
 
 /// The same where it is symmetric: six entries.
 #[inline(always)]
-fn subtract_symmetric<T: Real>(m: &mut Matrix3<T>, gain: &Matrix3<T>, q: &Matrix3<T>) {
+fn subtract_symmetric<T: Real, const C: usize>(
+    m: &mut Matrix3<T>,
+    gain: &SMatrix<T, 3, C>,
+    q: &SMatrix<T, 3, C>,
+) {
     for c in 0..3 {
         for r in c..3 {
-            m[(r, c)] -=
-                gain[(r, 0)] * q[(c, 0)] + gain[(r, 1)] * q[(c, 1)] + gain[(r, 2)] * q[(c, 2)];
+            m[(r, c)] -= product(gain, q, (r, c));
         }
     }
     mirror(m);
 }
 
-/// `M − k qᵀ`.
+/// An entry of `K Qᵀ`.
 #[inline(always)]
-fn subtract_outer<T: Real>(m: &mut Matrix3<T>, gain: &Vector3<T>, q: &Vector3<T>) {
-    for c in 0..3 {
-        for r in 0..3 {
-            m[(r, c)] -= gain[r] * q[c];
-        }
+fn product<T: Real, const C: usize>(
+    gain: &SMatrix<T, 3, C>,
+    q: &SMatrix<T, 3, C>,
+    (r, c): (usize, usize),
+) -> T {
+    let mut sum = gain[(r, 0)] * q[(c, 0)];
+    for k in 1..C {
+        sum += gain[(r, k)] * q[(c, k)];
     }
-}
-
-/// The same where it is symmetric.
-#[inline(always)]
-fn subtract_outer_symmetric<T: Real>(m: &mut Matrix3<T>, gain: &Vector3<T>, q: &Vector3<T>) {
-    for c in 0..3 {
-        for r in c..3 {
-            m[(r, c)] -= gain[r] * q[c];
-        }
-    }
-    mirror(m);
+    sum
 }

@@ -1,6 +1,7 @@
 //! Why there is no plan.
 
 use super::Side;
+use crate::balance::{Fault, Input};
 
 /// What of a plan's input was not usable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +27,16 @@ pub enum WalkFault {
     Period,
     /// A number came out NaN or infinite: an input was finite, but too large.
     Overflow,
+}
+
+impl From<WalkFault> for Fault {
+    /// What a tick says that has no plan.
+    fn from(fault: WalkFault) -> Self {
+        match fault {
+            WalkFault::Overflow => Self::Overflow,
+            _ => Self::NotFinite(Input::Reference),
+        }
+    }
 }
 
 /// Why a robot has no [`Stature`](super::Stature).

@@ -2,6 +2,7 @@
 
 use super::at_rest::nominal;
 use super::friction::Friction;
+use super::whole_body_settings::FEET;
 use crate::plant::PlantState;
 use crate::robot::Contacts;
 use crate::scene::{Disturbance, Scene};
@@ -14,8 +15,6 @@ use surefoot::spatial::Wrench;
 
 /// What is remembered beside state, torques and residual.
 const NUMBERS: usize = 6 + 1 + 6 + 10;
-/// Feet that core has room for.
-const FEET: usize = 4;
 
 /// An observer of a robot of any size.
 pub(super) trait Observe<T> {

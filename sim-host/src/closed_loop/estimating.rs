@@ -1,6 +1,7 @@
 //! The state estimator in the loop: what it is fed, and what it makes of the state that controllers see.
 
 use super::inertial::{InertialSensor, logarithm};
+use super::whole_body_settings::FEET;
 use crate::plant::PlantState;
 use crate::robot::{Contacts, SharedRobot};
 use crate::scene::Sensing;
@@ -13,8 +14,6 @@ use surefoot::estimate::{
 };
 use surefoot::spatial::{Pose, Quaternion};
 
-/// Feet that core has room for.
-const FEET: usize = 4;
 /// A foot's switch closes at this share of the robot's weight: 20 N of a person's.
 const SWITCH_SHARE: f64 = 0.03;
 /// Of the direction in which the feet's forces are found, m/s²/√Hz: a tenth in variance of core's starting value, with

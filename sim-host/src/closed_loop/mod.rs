@@ -23,10 +23,11 @@ mod outcome;
 mod plant;
 mod run;
 mod sensing;
-mod standing;
+
 mod supervised;
 mod walking;
 mod whole_body;
+mod whole_body_settings;
 
 pub use acting::{CutTorques, Motors};
 pub use approximate::{ApproximateController, Approximation};

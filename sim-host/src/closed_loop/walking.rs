@@ -3,9 +3,9 @@
 use super::controller::{Commanded, ControlFailure, Controller, measured};
 use super::gait::GaitTally;
 use super::limiting::LimitTally;
-use super::standing::FEET;
 use super::supervised::{recorded, remembered};
 use super::whole_body::{WholeBodyHost, padded};
+use super::whole_body_settings::FEET;
 use crate::plant::PlantState;
 use crate::record;
 use crate::robot::{LEG, Limits, WalkerShape, with_tree};
@@ -13,14 +13,13 @@ use crate::scene::{Scene, WalkCommand};
 use nalgebra::{Vector2, Vector3};
 use surefoot::Real;
 use surefoot::balance::{
-    Command, Fault, Input, ObservedMotion, Reference, RobotState, SafetyLimits, StopReason,
-    Supervisor, WholeBodyCommand, WholeBodyController, WholeBodySettings, WholeBodyState, observe,
-    whole_body_motion_tick,
+    Fault, ObservedMotion, Reference, RobotState, SafetyLimits, StopReason, Supervisor,
+    WholeBodyCommand, WholeBodyController, WholeBodyState, observe, whole_body_motion_tick,
 };
 use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, Wrench};
 use surefoot::walk::{
-    self, LANDING_RATE, PlaneMotion, Planner, StandingRobot, Stature, WalkFault, WalkMemory,
+    self, LANDING_RATE, PlaneMotion, Planner, StandingRobot, Stature, WalkMemory,
 };
 
 /// What a target must know of a robot that walks.
@@ -132,11 +131,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
         let standing = body.seen(&start);
         let stature = Stature::measured(&robot, &shape.sides, &standing).expect("a robot on feet");
         // Starting values belong to the height of the centre of mass here.
-        let own = WholeBodySettings::<T, NV>::walking(stature.height, robot.gravity, feet);
-        body.settings.motion = own.motion;
-        body.settings.limits = own.limits;
-        body.settings.posture_gains = own.posture_gains;
-        body.settings.rest_rate = own.rest_rate;
+        body.settings = body.settings.for_walks(stature.height, robot.gravity, feet);
         let rotation = standing.central_rotation;
         Self {
             planner: Planner::new(stature),
@@ -164,11 +159,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
         let controller = WholeBodyController { tree, robot: model, settings };
         let observed = observe(&controller, state)?;
         let motion = observed.motion(&controller)?;
-        let planned = planner.plan(memory, &motion, forces, &asked, *period);
-        let task = planned.map_err(|fault| match fault {
-            WalkFault::Overflow => Fault::Overflow,
-            _ => Fault::NotFinite(Input::Reference),
-        })?;
+        let task = planner.plan(memory, &motion, forces, &asked, *period)?;
         let command = whole_body_motion_tick(&controller, &observed, &task.motion, rows)?;
         body.count(&command.limits);
         Ok(command)
@@ -214,16 +205,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
         let reference = walker.reference(state);
         let tick = |now: &RobotState<T, ROWS>| {
             let command = walker.command(&WholeBodyState::of_rows(now))?;
-            let mut joint_torques = [[T::zero(); LEG]; ROWS];
-            let all = joint_torques.as_flattened_mut().iter_mut();
-            all.zip(&command.torques[6..]).for_each(|(to, torque)| *to = *torque);
-            Ok(Command {
-                joint_torques,
-                desired_wrench: command.desired_wrench,
-                foot_wrenches: [Wrench::zero(); ROWS],
-                position_error: command.position_error,
-                orientation_error: command.orientation_error,
-            })
+            Ok(command.in_rows())
         };
         let answer = supervisor.step_with(Some(&measured(&in_rows)), &reference, false, tick);
         let wrench = answer.command.map_or_else(Wrench::zero, |command| command.desired_wrench);

@@ -4,8 +4,8 @@ use super::controller::{Commanded, ControlFailure, Controller, measured};
 use super::disturbance::{Observe, observer};
 use super::friction::Friction;
 use super::limiting::LimitTally;
-use super::standing::{FEET, Standing};
 use super::supervised::{of_state, recorded, remembered};
+use super::whole_body_settings::{FEET, Standing};
 use crate::plant::PlantState;
 use crate::record;
 use crate::robot::{LEG, SharedRobot};
@@ -13,7 +13,7 @@ use crate::scene::Scene;
 use nalgebra::Vector3;
 use surefoot::Real;
 use surefoot::balance::{
-    Command, Fault, Gains, Reference, RobotState, SafetyLimits, StopReason, Supervisor, WholeBody,
+    Fault, Gains, Reference, RobotState, SafetyLimits, StopReason, Supervisor, WholeBody,
     WholeBodyCommand, WholeBodyController, WholeBodyMemory, WholeBodyReport, WholeBodySettings,
     WholeBodyState, whole_body_tick_under,
 };
@@ -224,16 +224,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
         let reference = inner.reference();
         let tick = |now: &RobotState<T, ROWS>| {
             let command = inner.command(&WholeBodyState::of_rows(now))?;
-            let mut joint_torques = [[T::zero(); LEG]; ROWS];
-            let all = joint_torques.as_flattened_mut().iter_mut();
-            all.zip(&command.torques[6..]).for_each(|(to, torque)| *to = *torque);
-            Ok(Command {
-                joint_torques,
-                desired_wrench: command.desired_wrench,
-                foot_wrenches: [Wrench::zero(); ROWS],
-                position_error: command.position_error,
-                orientation_error: command.orientation_error,
-            })
+            Ok(command.in_rows())
         };
         let answer = supervisor.step_with(Some(&measured(&in_rows)), &reference, false, tick);
         self.inner.sent(answer.joint_torques.as_flattened());

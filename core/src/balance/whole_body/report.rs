@@ -3,7 +3,8 @@
 use super::WholeBodyLimit;
 use super::program::limit_of;
 use crate::Real;
-use crate::balance::{BindingRows, LimitSet, RobotState};
+use crate::balance::robot::LEG;
+use crate::balance::{BindingRows, Command, LimitSet, RobotState};
 use crate::qp::{ActiveRows, Solution, Status, Work};
 use crate::spatial::{Quaternion, Twist, Wrench};
 use nalgebra::Vector3;
@@ -58,6 +59,23 @@ pub struct WholeBodyCommand<T, const FEET: usize, const NV: usize> {
     pub orientation_error: Quaternion<T>,
     /// What binds, and what is given up.
     pub limits: WholeBodyReport<T, FEET>,
+}
+
+impl<T: Real, const FEET: usize, const NV: usize> WholeBodyCommand<T, FEET, NV> {
+    /// As a supervisor takes it, with joints in rows of six in the tree's order. Foot wrenches are left out: feet
+    /// are not of rows.
+    pub fn in_rows<const ROWS: usize>(&self) -> Command<T, ROWS> {
+        let mut joint_torques = [[T::zero(); LEG]; ROWS];
+        let torques = self.torques.iter().skip(6);
+        joint_torques.as_flattened_mut().iter_mut().zip(torques).for_each(|(to, t)| *to = *t);
+        Command {
+            joint_torques,
+            desired_wrench: self.desired_wrench,
+            foot_wrenches: [Wrench::zero(); ROWS],
+            position_error: self.position_error,
+            orientation_error: self.orientation_error,
+        }
+    }
 }
 
 /// What binds in a tick, by how much, and what is given up for it.

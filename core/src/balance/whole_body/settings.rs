@@ -96,6 +96,14 @@ impl<T: Real, const NV: usize> WholeBodySettings<T, NV> {
         Self { motion, limits, ..scaled }
     }
 
+    /// These settings with what of [`walking`](Self::walking) belongs to the height (m) of the centre of mass:
+    /// not torques, posture and gains.
+    pub fn for_walks(self, height: T, gravity: T, feet: usize) -> Self {
+        let Self { motion, limits, posture_gains, rest_rate, .. } =
+            Self::walking(height, gravity, feet);
+        Self { motion, limits, posture_gains, rest_rate, ..self }
+    }
+
     /// Whether every number can be.
     ///
     /// # Errors

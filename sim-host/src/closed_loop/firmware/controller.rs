@@ -3,8 +3,8 @@
 use super::{LinkError, Target, Transport, image};
 use crate::closed_loop::gait::GaitTally;
 use crate::closed_loop::limiting::{Given, LimitTally};
-use crate::closed_loop::standing::{Standing, firmware_id};
 use crate::closed_loop::walking::{self, WalkStart};
+use crate::closed_loop::whole_body_settings::{Standing, firmware_id};
 use crate::closed_loop::{Commanded, ControlFailure, Controller, Costs};
 use crate::plant::PlantState;
 use crate::robot::{LEG, Robot, SharedRobot, with_tree};

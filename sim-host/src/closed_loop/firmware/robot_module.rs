@@ -4,7 +4,7 @@
 //! as constants.
 
 use super::{folder_name, gains, set_point};
-use crate::closed_loop::standing::{feet, legs_id, tree_id};
+use crate::closed_loop::whole_body_settings::{feet, legs_id, tree_id};
 use crate::robot::{LEG, Robot};
 use crate::scene::Scene;
 use std::fmt::Write;

@@ -2,7 +2,6 @@
 
 use super::super::contact::{Asked, Contact, Place};
 use super::super::measured::first3;
-
 use super::super::observed::ObservedBody;
 use super::super::report::WholeBodyReport;
 use super::super::robot::Leg;

@@ -117,17 +117,15 @@ pub(super) fn tree_id(robot: &Robot) -> Option<RobotId> {
 pub(super) fn feet<T: Real>(robot: &Robot) -> [Option<WholeBodyFoot<T>>; FEET] {
     let contacts = Contacts::of(robot).expect("a robot with feet on legs");
     contacts.feet.map(|foot| {
-        foot.map(|foot| WholeBodyFoot {
-            body: foot.body,
-            reference: foot.reference.map(T::of),
-            axes: Quaternion::from_array(foot.axes.to_array().map(T::of)),
-            limits: ContactLimits {
-                least_force: T::zero(),
-                greatest_force: T::zero(),
-                friction: T::zero(),
-                patch: foot.limits.patch.shrunk(SOLE_SHARE).rounded(),
+        foot.map(|foot| {
+            let limits = ContactLimits {
+                least_force: 0.0,
+                greatest_force: 0.0,
+                friction: 0.0,
+                patch: foot.limits.patch.shrunk(SOLE_SHARE),
                 torques: [],
-            },
+            };
+            WholeBodyFoot { limits, ..foot }.rounded()
         })
     })
 }
