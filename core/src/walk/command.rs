@@ -14,11 +14,26 @@ pub struct PlaneMotion<T> {
     pub turning_rate: T,
 }
 
+/// A jump on the spot, or several.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JumpOrder<T> {
+    /// By how much the centre of mass is to rise after take-off, m.
+    pub rise: T,
+    /// How many, one after the other.
+    pub hops: u8,
+    /// An order is followed once: another number is another order.
+    pub number: u8,
+}
+
 /// What the robot is to do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WalkCommand<T> {
     /// How it is to walk; none: it is to stand.
     pub walk: Option<PlaneMotion<T>>,
+    /// Whether it runs instead: both sides in the air between two stances.
+    pub runs: bool,
+    /// What it does as soon as it stands and is not to walk.
+    pub jump: Option<JumpOrder<T>>,
     /// How far below its standing height, m.
     pub lowered: T,
 }
@@ -43,19 +58,30 @@ impl<T: Real> PlaneMotion<T> {
 impl<T: Real> WalkCommand<T> {
     /// To stand upright.
     pub fn stand() -> Self {
-        Self { walk: None, lowered: T::zero() }
+        Self { walk: None, runs: false, jump: None, lowered: T::zero() }
     }
 
     /// To walk at full height.
     pub fn walk(velocity: Vector2<T>, turning_rate: T) -> Self {
-        Self { walk: Some(PlaneMotion { velocity, turning_rate }), lowered: T::zero() }
+        Self { walk: Some(PlaneMotion { velocity, turning_rate }), ..Self::stand() }
+    }
+
+    /// To run.
+    pub fn run(velocity: Vector2<T>, turning_rate: T) -> Self {
+        Self { runs: true, ..Self::walk(velocity, turning_rate) }
+    }
+
+    /// To jump once, so that the centre of mass rises by `rise` (m) after take-off, and to stand.
+    pub fn jump(rise: T, number: u8) -> Self {
+        Self { jump: Some(JumpOrder { rise, hops: 1, number }), ..Self::stand() }
     }
 
     pub(super) fn check(&self) -> Result<(), WalkFault> {
         let numbers = self
             .walk
             .map_or(T::zero(), |walk| walk.velocity.x + walk.velocity.y + walk.turning_rate);
-        if (numbers + self.lowered).is_finite() {
+        let rise = self.jump.map_or(T::zero(), |jump| jump.rise);
+        if (numbers + self.lowered + rise).is_finite() {
             return Ok(());
         }
         Err(WalkFault::NotFinite(WalkInput::Command))

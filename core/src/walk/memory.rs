@@ -1,6 +1,6 @@
 //! What a plan leaves for the next.
 
-use super::{PlaneMotion, PlannedStep, Side, SwingFoot};
+use super::{JumpPhase, PlaneMotion, PlannedStep, RunPhase, Side, SwingFoot};
 use crate::Real;
 use nalgebra::Vector2;
 
@@ -31,6 +31,10 @@ pub enum Phase<T, const FEET: usize> {
         /// Old stance point, world, m.
         old: Vector2<T>,
     },
+    /// Jumping, from the crouch to standing again.
+    Jump(JumpPhase<T, FEET>),
+    /// Running: on one side, or on none.
+    Run(RunPhase<T>),
 }
 
 /// All that a [`Planner`](super::Planner) remembers: given it, another goes on to the same bits.
@@ -50,6 +54,10 @@ pub struct WalkMemory<T, const FEET: usize> {
     pub first: Side,
     /// Steps so far.
     pub steps: u32,
+    /// Number of the order to jump that was followed last.
+    pub jumped: Option<u8>,
+    /// Flights so far, of runs and jumps.
+    pub flights: u32,
 }
 
 impl<T: Real, const FEET: usize> WalkMemory<T, FEET> {
@@ -63,7 +71,15 @@ impl<T: Real, const FEET: usize> WalkMemory<T, FEET> {
             touch_downs: [None; 2],
             first: Side::Left,
             steps: 0,
+            jumped: None,
+            flights: 0,
         }
+    }
+
+    /// Nothing is known of the speed yet.
+    pub(super) fn forget_speed(&mut self) {
+        self.correction = Vector2::zeros();
+        self.touch_downs = [None; 2];
     }
 
     /// Wanted velocity, with the speed loop's part.

@@ -50,31 +50,40 @@
 //! No loop is longer than the feet, or nine times of a step. A plan's arithmetic is some 300 operations, 1200
 //! while it searches.
 
+mod asked;
+mod ballistic;
 mod bounded;
 mod capture;
+mod check;
 mod command;
 mod fault;
 mod gait;
 mod heading;
 mod height;
+mod jump;
 mod memory;
 mod orientation;
 mod periodic;
 mod plan;
+mod run;
 mod seen;
 mod speed;
 mod stature;
 mod step;
+mod stepping;
 mod support;
 mod swing;
 
+pub use ballistic::{take_off_speed, time_aloft};
 pub use capture::capture_point;
-pub use command::{PlaneMotion, WalkCommand};
+pub use command::{JumpOrder, PlaneMotion, WalkCommand};
 pub use fault::{StatureFault, WalkFault, WalkInput};
 pub use gait::Gait;
+pub use jump::{JumpPhase, JumpStage};
 pub use memory::{Phase, TouchDown, WalkMemory};
 pub use periodic::{PeriodicStep, periodic_step};
 pub use plan::{Planner, WalkTask};
+pub use run::RunPhase;
 pub use stature::{Side, StandingRobot, Stature, SteppingFoot};
 pub use step::{PlannedStep, StepQuery, next_step};
 pub use swing::SwingFoot;

@@ -1,9 +1,9 @@
 //! The speed loop: once a step, an integral of the error of the mean velocity over the last two steps goes
 //! into the next (Raibert, chapter 2).
 
+use super::WalkMemory;
 use super::bounded::bounded;
 use super::heading::Heading;
-use super::{Gait, WalkMemory};
 use crate::Real;
 use nalgebra::Vector2;
 
@@ -18,10 +18,10 @@ pub struct TouchDown<T> {
     pub velocity: Vector2<T>,
 }
 
-/// Takes a touch-down into the memory's correction.
+/// Takes a touch-down into the memory's correction: a `share` of the error, up to `most` (m/s).
 pub(super) fn corrected<T: Real, const FEET: usize>(
     memory: &mut WalkMemory<T, FEET>,
-    gait: &Gait<T>,
+    [share, most]: [T; 2],
     heading: Heading<T>,
     center: Vector2<T>,
 ) {
@@ -32,7 +32,6 @@ pub(super) fn corrected<T: Real, const FEET: usize>(
     {
         let mean = heading.of_world(now.center - start.center) / start.age;
         let error = (start.velocity + now.velocity) * T::of(0.5) - mean;
-        let [share, most] = gait.speed_loop;
         memory.correction = (memory.correction + error * share).map(|x| bounded(x, -most, most));
     }
     memory.touch_downs = [last, Some(now)];

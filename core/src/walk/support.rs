@@ -18,6 +18,21 @@ use super::{Gait, PeriodicStep, PlannedStep, Side};
 use crate::Real;
 use nalgebra::{Vector2, Vector3};
 
+/// Standing: how far the centre of pressure goes beyond the capture point, of its way to rest.
+const STANDING_FEEDBACK: f64 = 2.0;
+
+/// Horizontal acceleration of the centre of mass that brings the capture point to rest over `rest` (world, m): the
+/// centre of pressure twice as far beyond it as it is beyond its rest.
+pub(super) fn rest<T: Real, const FEET: usize>(
+    gait: &Gait<T>,
+    seen: &Seen<'_, T, FEET>,
+    rest: Vector2<T>,
+) -> Vector2<T> {
+    let pressure = seen.xi + (seen.xi - rest) * T::of(STANDING_FEEDBACK);
+    let squared = gait.omega * gait.omega;
+    (seen.observed.center_of_mass.xy() - pressure) * squared
+}
+
 /// (1) and (2), within what the stance side can press on; world.
 pub(super) fn single<T: Real, const FEET: usize>(
     gait: &Gait<T>,

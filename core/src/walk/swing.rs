@@ -132,6 +132,6 @@ impl<T: Real> SwingFoot<T> {
 }
 
 /// (2)
-fn cubic<T: Real>(x: T, v: T, to: T, speed: T, time: T) -> T {
+pub(super) fn cubic<T: Real>(x: T, v: T, to: T, speed: T, time: T) -> T {
     (to - x) * T::of(6.0) / (time * time) - (v * T::of(4.0) + speed * T::of(2.0)) / time
 }

@@ -55,5 +55,5 @@ pub use report::{WholeBodyCommand, WholeBodyMemory, WholeBodyReport, WholeBodySt
 pub(crate) use robot::Leg;
 pub use robot::{MOST_JOINTS, MOST_LEG_JOINTS, WholeBody, WholeBodyFoot};
 pub use settings::WholeBodySettings;
-pub use task::{FootTask, LinearTask, MotionTask, ObservedFoot, ObservedMotion};
+pub use task::{AngularTask, FootTask, LinearTask, MotionTask, ObservedFoot, ObservedMotion};
 pub use tick::{WholeBodyController, whole_body_tick, whole_body_tick_under};

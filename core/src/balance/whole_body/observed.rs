@@ -91,7 +91,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> ObservedBody<T, 
         }
         let momentum = Wrench::from_array(momentum);
         let mass = controller.robot.mass;
-        let center = self.center_of_mass(mass);
+        let center = center_of_mass(&self.masses, mass);
         let angular = momentum.torque - center.cross(&momentum.force);
         let mut feet = [ObservedFoot {
             position: Vector3::zeros(),
@@ -116,15 +116,6 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> ObservedBody<T, 
         let of_feet = motion.feet.iter().map(|foot| foot.velocity + foot.angular_velocity);
         let sum = of_feet.fold(motion.velocity + motion.angular_momentum, |sum, v| sum + v);
         if sum.iter().all(|x| x.is_finite()) { Ok(motion) } else { Err(Fault::Overflow) }
-    }
-
-    /// `c` of (1), from frame 1's origin.
-    #[inline(always)]
-    pub(super) fn center_of_mass(&self, mass: T) -> Vector3<T> {
-        let entry = |i: usize, j: usize| {
-            self.masses.get(i).and_then(|row| row.get(j)).copied().unwrap_or(T::zero())
-        };
-        Vector3::new(entry(5, 1), entry(3, 2), entry(4, 0)) / mass
     }
 
     /// `None` for a foot of another tree.
@@ -169,4 +160,15 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> ObservedBody<T, 
         };
         Some(pose.position - pose.rotation * center)
     }
+}
+
+/// `c` of (1), from frame 1's origin, of the masses of a whole that weighs `mass`.
+#[inline(always)]
+pub(super) fn center_of_mass<T: Real, const NV: usize>(
+    masses: &[[T; NV]; NV],
+    mass: T,
+) -> Vector3<T> {
+    let entry =
+        |i: usize, j: usize| masses.get(i).and_then(|row| row.get(j)).copied().unwrap_or(T::zero());
+    Vector3::new(entry(5, 1), entry(3, 2), entry(4, 0)) / mass
 }

@@ -7,8 +7,8 @@ use nalgebra::Vector3;
 pub struct MotionTask<T, const FEET: usize> {
     /// Of the centre of mass.
     pub linear: LinearTask<T>,
-    /// Angular acceleration of the central body, rad/s².
-    pub angular: Vector3<T>,
+    /// Of its rotation.
+    pub angular: AngularTask<T>,
     /// What each foot does.
     pub feet: [FootTask<T>; FEET],
 }
@@ -30,6 +30,21 @@ pub enum LinearTask<T> {
     },
     /// Not at all: no foot presses.
     Free,
+}
+
+/// What is driven of the rotation, world axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AngularTask<T> {
+    /// The central body's angular acceleration, rad/s².
+    CentralBody(Vector3<T>),
+    /// The angular momentum of the whole about its centre of mass: what it takes along into a flight. The moments of
+    /// the feet that press alone change it.
+    Momentum {
+        /// Wanted rate of change, N·m.
+        rate: Vector3<T>,
+        /// What divides an error of it to count like an angular acceleration, kg·m²; positive.
+        inertia: T,
+    },
 }
 
 /// What a foot does.

@@ -2,11 +2,13 @@
 
 use super::super::contact::Contact;
 use super::super::leg_inverse::DIRECTIONS;
+use super::super::observed::center_of_mass;
 use super::super::robot::{MOST_LEG_JOINTS, WholeBody};
 use crate::Real;
 use crate::balance::ContactLimits;
 use crate::balance::square::Square;
 use crate::spatial::{Twist, Wrench};
+use nalgebra::Vector3;
 
 /// One number for each direction of a foot, sole axes: a wrench, or an acceleration.
 pub(super) type Unknowns<T> = [T; DIRECTIONS];
@@ -86,6 +88,11 @@ impl<'a, T: Real, const FEET: usize, const NV: usize> MotionDynamics<'a, T, FEET
         let most = base.iter().flatten().fold(T::zero(), |most, x| most.max(x.abs()));
         let base = Square::new(base, most * T::default_epsilon() * T::of(4.0))?;
         Some(Self { robot, feet, masses, screws, bias, rows, base })
+    }
+
+    /// Of all that hangs from the central body and weighs `mass` (kg), from frame 1's origin, m.
+    pub fn center_of_mass(&self, mass: T) -> Vector3<T> {
+        center_of_mass(self.masses, mass)
     }
 
     /// `X` where all unknowns are zero.

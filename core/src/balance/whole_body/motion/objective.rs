@@ -14,8 +14,8 @@
 use super::super::leg_inverse::DIRECTIONS;
 use super::dynamics::{MotionDynamics, Unknowns};
 use crate::Real;
-use crate::balance::LinearTask;
 use crate::balance::whole_body::MotionTask;
+use crate::balance::{AngularTask, LinearTask};
 use crate::qp::Ldl;
 use crate::spatial::{Twist, Wrench};
 use nalgebra::{Matrix3, Vector3};
@@ -93,18 +93,27 @@ impl<T: Real, const FEET: usize> Objective<T, FEET> {
         let (linear, angular) = (weights.linear.sqrt(), weights.angular.sqrt() * mass);
         let mut columns = [[[zero; 6]; DIRECTIONS]; FEET];
         let mut inverse = [[zero; DIRECTIONS]; FEET];
-        // Angular rows, in frame 1's axes.
-        for row in 3..6 {
-            let mut unit = [zero; 6];
-            unit[row] = one;
-            let of_feet = dynamics.per_unknown(&dynamics.for_base(&unit));
-            for (columns, of_foot) in columns.iter_mut().zip(&of_feet) {
-                for (column, x) in columns.iter_mut().zip(of_foot) {
-                    column[row] = *x * angular;
+        // Angular rows: of the central body in frame 1's axes.
+        let wanted = match &task.angular {
+            AngularTask::CentralBody(acceleration) => {
+                for row in 3..6 {
+                    let mut unit = [zero; 6];
+                    unit[row] = one;
+                    let of_feet = dynamics.per_unknown(&dynamics.for_base(&unit));
+                    for (columns, of_foot) in columns.iter_mut().zip(&of_feet) {
+                        for (column, x) in columns.iter_mut().zip(of_foot) {
+                            column[row] = *x * angular;
+                        }
+                    }
                 }
+                (around.central.tr_mul(acceleration) - free.angular) * angular
             }
-        }
-        let wanted = (around.central.tr_mul(&task.angular) - free.angular) * angular;
+            AngularTask::Momentum { rate, inertia } => {
+                let per_inertia = angular / *inertia;
+                momentum_rows(dynamics, around, per_inertia, &mut columns);
+                rate * per_inertia
+            }
+        };
         let goal = linear_goal(&task.linear, around) * linear;
         let goal = [goal.x, goal.y, goal.z, wanted.x, wanted.y, wanted.z];
         for ((columns, inverse), foot) in columns.iter_mut().zip(&mut inverse).zip(dynamics.feet) {
@@ -187,6 +196,31 @@ fn spread<T: Real, const FEET: usize>(
         *x *= column.iter().zip(y).fold(T::zero(), |sum, (c, y)| sum + *c * *y);
     }
     x
+}
+
+/// What the unknowns add to the rate of the angular momentum about the centre of mass (world axes), times a factor:
+/// moments of feet that press.
+#[cold]
+#[inline(never)]
+fn momentum_rows<T: Real, const FEET: usize, const NV: usize>(
+    dynamics: &MotionDynamics<'_, T, FEET, NV>,
+    around: &Surroundings<'_, T>,
+    factor: T,
+    columns: &mut [[[T; 6]; DIRECTIONS]; FEET],
+) {
+    let center = dynamics.center_of_mass(around.mass);
+    for (columns, foot) in columns.iter_mut().zip(dynamics.feet) {
+        let Some(foot) = foot.as_ref().filter(|foot| foot.limits.is_some()) else { continue };
+        let to_world = around.central * foot.contact.rotation;
+        let arm = around.central * (foot.contact.position - center);
+        for (k, column) in columns.iter_mut().enumerate() {
+            let moment = match k {
+                0..3 => arm.cross(&to_world.column(k)),
+                _ => to_world.column(k - 3).into_owned(),
+            };
+            [column[3], column[4], column[5]] = (moment * factor).into();
+        }
+    }
 }
 
 /// What a wrench (world axes) about the point `at` adds to `m c̈` as the task counts it.

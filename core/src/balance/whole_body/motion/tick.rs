@@ -6,7 +6,8 @@ use super::super::observed::ObservedBody;
 use super::super::report::WholeBodyReport;
 use super::super::robot::Leg;
 use super::super::{
-    FootTask, LinearTask, MotionTask, WholeBodyCommand, WholeBodyController, WholeBodyMemory,
+    AngularTask, FootTask, LinearTask, MotionTask, WholeBodyCommand, WholeBodyController,
+    WholeBodyMemory,
 };
 use super::dynamics::{MotionDynamics, MotionFoot, Unknowns};
 use super::objective::{Objective, Surroundings};
@@ -210,5 +211,11 @@ fn is_finite<T: Real, const FEET: usize>(task: &MotionTask<T, FEET>) -> bool {
         FootTask::Press { most_force } => *most_force >= T::zero(),
         FootTask::Swing { linear, angular } => finite(linear) && finite(angular),
     });
-    linear && feet && finite(&task.angular)
+    let angular = match &task.angular {
+        AngularTask::CentralBody(acceleration) => finite(acceleration),
+        AngularTask::Momentum { rate, inertia } => {
+            finite(rate) && *inertia > T::zero() && inertia.is_finite()
+        }
+    };
+    linear && feet && angular
 }
