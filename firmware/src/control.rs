@@ -188,6 +188,10 @@ impl Control {
             let state = measured.map(|measured| &measured.state);
             #[cfg(walks)]
             let reference = &balance.reference(reference, state);
+            #[cfg(walks)]
+            if balance.leaps() {
+                supervisor.expect_leap();
+            }
             supervisor.step_with(state, reference, self.overran, |now| {
                 balance.tick(now, reference, measured)
             })

@@ -99,7 +99,13 @@ impl Balance {
         self.met.take()
     }
 
-    /// Where the supervisor is to expect the robot: where it is, at its height.
+    /// Whether the robot leaps now, as it is to.
+    pub fn leaps(&self) -> bool {
+        self.walker.as_ref().is_some_and(|walker| walker.planner.leeway(&self.plan).leaps)
+    }
+
+    /// Where the supervisor is to expect the robot: where it is, at its height, or as far below as what is planned takes
+    /// it.
     pub fn reference(
         &self,
         own: &Reference<f32>,
@@ -108,6 +114,9 @@ impl Balance {
         let mut position = own.position;
         if let Some(state) = state {
             (position.x, position.y) = (state.position.x, state.position.y);
+        }
+        if let Some(walker) = &self.walker {
+            position.z -= walker.planner.leeway(&self.plan).sinks;
         }
         Reference::at_rest(position, Quaternion::identity())
     }

@@ -4,7 +4,9 @@ use crate::limits::MOST_FEET;
 use heapless::Vec;
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
-use surefoot::walk::{PlaneMotion, Side, StandingRobot, Stature, SteppingFoot, WalkCommand};
+use surefoot::walk::{
+    JumpOrder, PlaneMotion, Side, StandingRobot, Stature, SteppingFoot, WalkCommand,
+};
 
 /// A robot's [`Stature`], and where it begins.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,6 +41,10 @@ pub struct WalkerFoot {
 pub struct WalkOrder {
     /// Forward and to the left, m/s, and turning to the left, rad/s; none: it stands, as soon as it can.
     pub motion: Option<[f32; 3]>,
+    /// Whether it runs instead of walking.
+    pub runs: bool,
+    /// A jump when it stands: by how much the centre of mass is to rise, m, how often, and the order's number.
+    pub jump: Option<(f32, u8, u8)>,
     /// How far below its standing height, m.
     pub lowered: f32,
 }
@@ -92,13 +98,15 @@ impl From<&WalkOrder> for WalkCommand<f32> {
             velocity: Vector2::new(forward, left),
             turning_rate,
         });
-        Self { walk, lowered: order.lowered }
+        let jump = order.jump.map(|(rise, hops, number)| JumpOrder { rise, hops, number });
+        Self { walk, runs: order.runs, jump, lowered: order.lowered }
     }
 }
 
 impl From<&WalkCommand<f32>> for WalkOrder {
     fn from(command: &WalkCommand<f32>) -> Self {
         let motion = command.walk.map(|walk| [walk.velocity.x, walk.velocity.y, walk.turning_rate]);
-        Self { motion, lowered: command.lowered }
+        let jump = command.jump.map(|jump| (jump.rise, jump.hops, jump.number));
+        Self { motion, runs: command.runs, jump, lowered: command.lowered }
     }
 }

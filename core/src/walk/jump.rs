@@ -21,7 +21,7 @@ use super::ballistic::{push, take_off_speed};
 use super::bounded::bounded;
 use super::orientation::level;
 use super::seen::Seen;
-use super::{Gait, JumpOrder, Phase, Planner, WalkMemory, support};
+use super::{Gait, JumpOrder, Leeway, Phase, Planner, WalkMemory, support};
 use crate::Real;
 use crate::balance::{AngularTask, FootTask, LinearTask, MotionTask};
 use nalgebra::{Vector2, Vector3};
@@ -57,6 +57,9 @@ const BELOW: [f64; 2] = [1.012, 0.085];
 /// A foot is not felt before this share of the time to the apex.
 const BLIND: f64 = 0.5;
 
+/// How far the central body goes below its standing height, `z`; share of the time of a flight that one may last.
+const LEEWAY: [f64; 2] = [0.3, 1.2];
+
 /// A jump under way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JumpPhase<T, const FEET: usize> {
@@ -81,7 +84,7 @@ pub enum JumpStage<T, const FEET: usize> {
     Flight {
         /// Of the centre of mass upwards at take-off, m/s.
         speed: T,
-        /// Feet from the centre of mass at take-off, world, m.
+        /// Feet from their middle at take-off, world, m.
         offsets: [Vector2<T>; FEET],
     },
     /// On the ground again.
@@ -146,11 +149,11 @@ impl<T: Real, const FEET: usize> Planner<T, FEET> {
                 let longest = self.stature.robot.leg_length * T::of(STRETCHED[0]);
                 let is_long = seen.feet().any(|(_, _, foot)| foot.leg.norm() > longest);
                 if height > take_off || is_long {
+                    // From their middle, not from the centre of mass: what that is off would grow with each hop.
+                    let middle = seen.center();
                     let offset = |k: usize| {
                         let foot = observed.feet.get(k);
-                        foot.map_or(Vector2::zeros(), |foot| {
-                            (foot.position - observed.center_of_mass).xy()
-                        })
+                        foot.map_or(Vector2::zeros(), |foot| foot.position.xy() - middle)
                     };
                     memory.flights = memory.flights.wrapping_add(1);
                     let made = jump.made.saturating_add(1);
@@ -185,6 +188,22 @@ impl<T: Real, const FEET: usize> Planner<T, FEET> {
             }
         };
         Phase::Jump(next)
+    }
+
+    /// What a supervisor must allow: a flight may last this much longer than a ballistic one.
+    pub(super) fn leeway_of_jump(&self, jump: &JumpPhase<T, FEET>) -> Leeway<T> {
+        let [sinks, longer] = LEEWAY.map(|x| T::of(x));
+        let unit = T::one() / self.gait.omega;
+        let leaps = match jump.stage {
+            JumpStage::Crouch => false,
+            JumpStage::Push => jump.elapsed < unit * T::of(LONGEST[1]),
+            JumpStage::Flight { speed, .. } => {
+                let flight = speed / self.stature.robot.gravity * T::of(2.0);
+                jump.elapsed < flight * longer + unit * T::of(BLIND)
+            }
+            JumpStage::Landing => jump.elapsed < unit * T::of(LEAST_LANDING),
+        };
+        Leeway { sinks: sinks * self.gait.height, leaps }
     }
 
     /// What a stage asks for.

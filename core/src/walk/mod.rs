@@ -82,7 +82,7 @@ pub use gait::Gait;
 pub use jump::{JumpPhase, JumpStage};
 pub use memory::{Phase, TouchDown, WalkMemory};
 pub use periodic::{PeriodicStep, periodic_step};
-pub use plan::{Planner, WalkTask};
+pub use plan::{Leeway, Planner, WalkTask};
 pub use run::RunPhase;
 pub use stature::{Side, StandingRobot, Stature, SteppingFoot};
 pub use step::{PlannedStep, StepQuery, next_step};

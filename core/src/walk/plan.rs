@@ -16,6 +16,18 @@ use nalgebra::Vector2;
 /// Double support lasts at least this share of its time.
 const LEAST_DOUBLE: f64 = 0.3;
 
+/// Of a run: how far the central body may be below its standing height (`z`), and how long a flight may last (1/ω).
+const RUNS: [f64; 2] = [0.15, 1.04];
+
+/// What a supervisor must allow for what is planned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leeway<T> {
+    /// How far the central body may go below its standing height beyond what it may in any case, m.
+    pub sinks: T,
+    /// Whether the robot flies, takes off or lands now: never for longer than a leap lasts.
+    pub leaps: bool,
+}
+
 /// A robot's measures and its gait.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Planner<T, const FEET: usize> {
@@ -38,6 +50,20 @@ impl<T: Real, const FEET: usize> Planner<T, FEET> {
     /// With a gait scaled to the measures.
     pub fn new(stature: Stature<T, FEET>) -> Self {
         Self { stature, gait: Gait::scaled(&stature) }
+    }
+
+    /// What a supervisor must allow in the tick that plans from `memory`.
+    pub fn leeway(&self, memory: &WalkMemory<T, FEET>) -> Leeway<T> {
+        let gait = &self.gait;
+        match &memory.phase {
+            Phase::Jump(jump) => self.leeway_of_jump(jump),
+            Phase::Run(run) => {
+                let [sinks, longest] = RUNS.map(|x| T::of(x));
+                let leaps = run.flies && run.elapsed * gait.omega < longest;
+                Leeway { sinks: sinks * gait.height, leaps }
+            }
+            _ => Leeway { sinks: T::zero(), leaps: false },
+        }
     }
 
     /// The task of this tick, `dt` seconds after the last: from what is observed, the normal `forces` on the

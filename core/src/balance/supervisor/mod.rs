@@ -78,6 +78,8 @@ pub struct Supervisor<T, const LEGS: usize> {
     stop_ticks: u16,
     free_fall_ticks: u16,
     saturation_ticks: u16,
+    /// Whether the next tick is of a leap that is wanted.
+    leaps: bool,
     memory: SupervisorMemory<T, LEGS>,
 }
 
@@ -93,6 +95,7 @@ impl<T: Real, const LEGS: usize> Supervisor<T, LEGS> {
             stop_ticks: 1,
             free_fall_ticks: 1,
             saturation_ticks: 1,
+            leaps: false,
             limits,
             period,
             memory: SupervisorMemory::new(0),
@@ -182,6 +185,12 @@ impl<T: Real, const LEGS: usize> Supervisor<T, LEGS> {
     /// The limits that it keeps.
     pub fn limits(&self) -> &SafetyLimits<T, LEGS> {
         &self.limits
+    }
+
+    /// Says before a tick that the robot is leaping as it is to: in that tick a body that falls freely is not lost, and
+    /// tilt and height are judged where they are, not where their rates lead. Who says so bounds the time of a leap.
+    pub fn expect_leap(&mut self) {
+        self.leaps = true;
     }
 
     /// One tick: `measured` is what arrived since the last, `overran` whether that took longer than
@@ -277,17 +286,19 @@ impl<T: Real, const LEGS: usize> Supervisor<T, LEGS> {
         now: &RobotState<T, LEGS>,
         reference: &Reference<T>,
     ) -> Result<bool, StopReason> {
+        let leaps = core::mem::take(&mut self.leaps);
         let Self { limits, memory, period, .. } = self;
         let thresholds = &limits.thresholds;
+        let look_ahead = if leaps { T::zero() } else { thresholds.look_ahead_s };
         consistency::in_range(&limits.joints, now)?;
-        posture::tilt(thresholds, now)?;
+        posture::tilt(thresholds, look_ahead, now)?;
         let velocity = now.orientation.rotate(now.velocity.linear);
         memory.highest = Some(posture::height(
             thresholds,
+            look_ahead,
             memory.highest,
             reference.position.z,
-            now.position.z,
-            velocity.z,
+            [now.position.z, velocity.z],
         )?);
         let mut is_doubtful = false;
         let mut unexplained = [[0; 4]; LEGS];
@@ -301,7 +312,7 @@ impl<T: Real, const LEGS: usize> Supervisor<T, LEGS> {
                 *to = [*latest, *a, *b, *c];
             }
             let falls = velocity.z - before.velocity.z < -thresholds.free_fall * h;
-            memory.falling = if falls { memory.falling.saturating_add(1) } else { 0 };
+            memory.falling = if falls && !leaps { memory.falling.saturating_add(1) } else { 0 };
         }
         match &mut memory.before {
             // In place: it is large.

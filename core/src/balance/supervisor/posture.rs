@@ -3,7 +3,8 @@
 //! # Notation
 //! - `r` last row of the central body's rotation matrix: the world's vertical in its axes; `r₃` is the
 //!   cosine of its tilt, and `ṙ₃ = r₁ Ω_y − r₂ Ω_x`
-//! - `z, v_z` height and its rate; `T` [`Thresholds::look_ahead_s`]
+//! - `z, v_z` height and its rate; `T` [`Thresholds::look_ahead_s`], zero while a leap is expected: who takes off turns
+//!   faster than he will, and who lands sinks faster
 //!
 //! ```text
 //! r₃ + T min(0, ṙ₃) ≥ c                                                                      (1)
@@ -23,12 +24,13 @@ use crate::spatial::Quaternion;
 #[inline(always)]
 pub(super) fn tilt<T: Real, const LEGS: usize>(
     thresholds: &Thresholds<T>,
+    look_ahead: T,
     now: &RobotState<T, LEGS>,
 ) -> Result<(), StopReason> {
     let [r1, r2, r3] = vertical(&now.orientation);
     let omega = &now.velocity.angular;
     let falling = below_zero(r1 * omega.y - r2 * omega.x);
-    if r3 + thresholds.look_ahead_s * falling < thresholds.least_upright {
+    if r3 + look_ahead * falling < thresholds.least_upright {
         return Err(StopReason::Tilt);
     }
     Ok(())
@@ -44,17 +46,17 @@ pub(super) fn tilt<T: Real, const LEGS: usize>(
 #[inline(always)]
 pub(super) fn height<T: Real>(
     thresholds: &Thresholds<T>,
+    look_ahead: T,
     highest: Option<T>,
     wanted: T,
-    height: T,
-    rate: T,
+    [height, rate]: [T; 2],
 ) -> Result<T, StopReason> {
     let highest = match highest {
         Some(highest) if highest > height => highest,
         _ => height,
     };
     let highest = if highest > wanted { wanted } else { highest };
-    if height + thresholds.look_ahead_s * below_zero(rate) < highest - thresholds.drop {
+    if height + look_ahead * below_zero(rate) < highest - thresholds.drop {
         return Err(StopReason::Height);
     }
     Ok(highest)

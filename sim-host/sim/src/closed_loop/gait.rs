@@ -1,5 +1,7 @@
 //! How a robot has walked.
 
+use super::aloft::Flights;
+use super::legs_apart::legs_apart;
 use super::{Outcome, Run};
 use crate::record::Sample;
 use crate::robot::Robot;
@@ -34,6 +36,10 @@ pub struct Gait {
     pub tilt_deg: f64,
     /// When it was told to stand, or the run ended, s.
     pub ended_s: f64,
+    /// Its flights; none where a foot carried at any time.
+    pub flight: Option<Flights>,
+    /// Least distance of two legs below their knees, lines and outlines of feet without thickness, m.
+    pub legs_apart_m: Option<f64>,
 }
 
 impl Gait {
@@ -49,6 +55,7 @@ impl Gait {
             samples.partition_point(|sample| sample.time_s < time.unwrap_or(f64::INFINITY))
         };
         let [begun, ended] = tally.told_s.map(until);
+        let begun = begun.min(samples.len());
         let (late, time) = way(&samples[usize::midpoint(begun, ended)..ended]);
         let walked = &samples[begun..];
         let (distance, _) = way(walked);
@@ -71,6 +78,8 @@ impl Gait {
             cost_of_transport: (distance > height).then(|| work / (weight * distance)),
             distance_m: way(samples).0,
             ended_s: ended.checked_sub(1).map_or(0.0, |last| samples[last].time_s),
+            flight: Flights::of(run, begun, robot),
+            legs_apart_m: legs_apart(run, robot),
             tilt_deg: samples.iter().map(tilt).fold(0.0, f64::max),
         }
     }

@@ -1,6 +1,7 @@
 //! The controller in the loop: sampled at its rate, its torques held between ticks.
 
 mod acting;
+mod aloft;
 mod approximate;
 mod askew;
 mod at_rest;
@@ -17,6 +18,7 @@ mod friction;
 mod gait;
 mod inertial;
 mod lag;
+mod legs_apart;
 mod limiting;
 mod memory;
 mod outcome;
@@ -30,6 +32,7 @@ mod whole_body;
 mod whole_body_settings;
 
 pub use acting::{CutTorques, Motors};
+pub use aloft::Flights;
 pub use approximate::{ApproximateController, Approximation};
 pub use at_rest::{RestError, rest_error};
 pub use cause::{Cause, Remedy, Runaway, StepTrial, explain};

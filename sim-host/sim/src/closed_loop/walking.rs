@@ -9,7 +9,7 @@ use super::whole_body_settings::FEET;
 use crate::plant::PlantState;
 use crate::record;
 use crate::robot::{LEG, Limits, WalkerShape, with_tree};
-use crate::scene::{Scene, WalkCommand};
+use crate::scene::{GaitName, Scene, WalkCommand};
 use nalgebra::{Vector2, Vector3};
 use surefoot::Real;
 use surefoot::balance::{
@@ -19,7 +19,7 @@ use surefoot::balance::{
 use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, Wrench};
 use surefoot::walk::{
-    self, LANDING_RATE, PlaneMotion, Planner, StandingRobot, Stature, WalkMemory,
+    self, JumpOrder, LANDING_RATE, Leeway, PlaneMotion, Planner, StandingRobot, Stature, WalkMemory,
 };
 
 /// What a target must know of a robot that walks.
@@ -42,18 +42,31 @@ pub(super) fn start(scene: &Scene) -> WalkStart {
 
 /// What a robot is to do at a time.
 pub(super) fn asked<T: Real>(commands: &[WalkCommand], time_s: f64) -> walk::WalkCommand<T> {
-    let now = commands.iter().rfind(|command| command.at_s <= time_s);
-    let walk = now.filter(|command| !command.stand).map(|command| PlaneMotion {
-        velocity: Vector2::new(T::of(command.forward_mps), T::of(command.left_mps)),
-        turning_rate: T::of(command.turn_deg_per_s.to_radians()),
-    });
-    walk::WalkCommand { walk, lowered: T::of(now.map_or(0.0, |c| c.lowered_m)) }
+    let until = commands.partition_point(|command| command.at_s <= time_s);
+    let Some(now) = until.checked_sub(1).and_then(|last| commands.get(last)) else {
+        return walk::WalkCommand::stand();
+    };
+    walk::WalkCommand {
+        walk: (!now.stands()).then(|| PlaneMotion {
+            velocity: Vector2::new(T::of(now.forward_mps), T::of(now.left_mps)),
+            turning_rate: T::of(now.turn_deg_per_s.to_radians()),
+        }),
+        runs: now.gait == GaitName::Run,
+        // Commands are followed once each: more than 255 of them are numbered anew.
+        jump: (now.jump_m > 0.0).then(|| JumpOrder {
+            rise: T::of(now.jump_m),
+            hops: now.hops,
+            number: until as u8,
+        }),
+        lowered: T::of(now.lowered_m),
+    }
 }
 
-/// When a robot is first told to walk, and when then to stand, s.
+/// When a robot is first told to walk (where it never is, to jump), and when then to stand, s.
 pub(super) fn told(commands: &[WalkCommand]) -> [Option<f64>; 2] {
-    let first = commands.iter().position(|command| !command.stand);
-    let after = |first: usize| commands[first..].iter().find(|command| command.stand);
+    let first = commands.iter().position(|command| !command.stands());
+    let first = first.or_else(|| commands.iter().position(|command| !command.stand));
+    let after = |first: usize| commands[first..].iter().skip(1).find(|command| command.stands());
     let at = |command: &WalkCommand| command.at_s;
     [first.map(|first| at(&commands[first])), first.and_then(after).map(at)]
 }
@@ -165,10 +178,10 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
         Ok(command)
     }
 
-    /// Where the supervisor is to expect the robot: here, at its height.
-    fn reference(&self, state: &PlantState) -> Reference<T> {
+    /// Where the supervisor is to expect the robot: here, at its height, or as far below as what is planned takes it.
+    fn reference(&self, state: &PlantState, leeway: Leeway<T>) -> Reference<T> {
         let [x, y] = [state.positions[0], state.positions[1]].map(T::of);
-        Reference::at_rest(Vector3::new(x, y, self.height), Quaternion::identity())
+        Reference::at_rest(Vector3::new(x, y, self.height - leeway.sinks), Quaternion::identity())
     }
 }
 
@@ -202,7 +215,11 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
         let mut in_rows = state.clone();
         in_rows.positions.resize(7 + ROWS * LEG, 0.0);
         in_rows.velocities.resize(6 + ROWS * LEG, 0.0);
-        let reference = walker.reference(state);
+        let leeway = walker.planner.leeway(&walker.memory);
+        let reference = walker.reference(state, leeway);
+        if leeway.leaps {
+            supervisor.expect_leap();
+        }
         let tick = |now: &RobotState<T, ROWS>| {
             let command = walker.command(&WholeBodyState::of_rows(now))?;
             Ok(command.in_rows())

@@ -33,7 +33,7 @@ pub use multibody::{
 pub use robot_entry::RobotEntry;
 pub use rung::{LUMPED_DEVIATION_M, Matters, ModelChoice, Rung};
 pub use terrain::{Patch, Terrain};
-pub use walk::WalkCommand;
+pub use walk::{GaitName, WalkCommand};
 
 use crate::plant::PlantState;
 use crate::robot::{SharedRobot, biped};
