@@ -11,7 +11,7 @@ use super::walking::{WalkingHost, walking_limits};
 use super::whole_body::{SupervisedWholeBody, WholeBodyHost};
 use crate::plant::PlantState;
 use crate::record::SupervisorMemory;
-use crate::robot::{LEG, SharedRobot, by_leg, with_tree};
+use crate::robot::{LEG, MOST_LEGS, SharedRobot, by_leg, with_tree};
 use crate::scene::{Scene, Workspace};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -73,6 +73,11 @@ pub trait Controller {
     /// Tells it before a tick the time (s) and how the ground presses on each foot, N.
     fn press(&mut self, time_s: f64, normal_forces: &[f64]) {
         let _ = (time_s, normal_forces);
+    }
+
+    /// Which feet its plan has on the ground until its next tick, if it has a plan.
+    fn planned(&self) -> Option<[bool; MOST_LEGS]> {
+        None
     }
 
     /// What it has walked so far, if it walks.

@@ -89,14 +89,23 @@ impl Estimating {
     }
 
     /// The ground's vertical forces on the feet (N), and which of them a planner has stand; both before a tick.
-    pub fn see_feet(&mut self, forces: impl Iterator<Item = f64>, planned: Option<&[bool]>) {
-        let least = SWITCH_SHARE * self.robot.tree.mass() * self.settings.gravity;
-        for (to, force) in self.pressed.iter_mut().zip(forces) {
-            *to = force > least;
-        }
-        for (to, is_planned) in self.planned.iter_mut().zip(planned.into_iter().flatten()) {
-            *to = *is_planned;
-        }
+    ///
+    /// # Returns
+    /// What the switches say, as forces: the robot's weight of a foot that presses.
+    pub fn see_feet(
+        &mut self,
+        forces: impl Iterator<Item = f64>,
+        planned: Option<[bool; FEET]>,
+    ) -> Vec<f64> {
+        let weight = self.robot.tree.mass() * self.settings.gravity;
+        let own = self.pressed.iter_mut().zip(forces);
+        let switched = own.map(|(to, force)| {
+            *to = force > SWITCH_SHARE * weight;
+            if *to { weight } else { 0.0 }
+        });
+        let switched = switched.collect();
+        self.planned = planned.unwrap_or([true; FEET]);
+        switched
     }
 
     /// The force of the ground on all feet, central body's axes, N, for the next tick.

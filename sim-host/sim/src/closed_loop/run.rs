@@ -237,13 +237,16 @@ fn advance(
             controller.touch(time, &feet);
         }
         let seen = plant.observe().map_err(|failure| step_failure(time, failure))?;
-        controller.press(time, &seen.foot_forces);
         if sensors.is_estimating() {
             let held = matches!(scene.feet, Feet::Welded {}).then_some(f64::INFINITY);
-            sensors.see_feet(seen.foot_forces.iter().map(|force| held.unwrap_or(*force)), None);
+            let forces = seen.foot_forces.iter().map(|force| held.unwrap_or(*force));
+            let switched = sensors.see_feet(forces, controller.planned());
+            controller.press(time, &switched);
             if let Some(force) = controller.support() {
                 sensors.see_feet_force(force.into());
             }
+        } else {
+            controller.press(time, &seen.foot_forces);
         }
         let measured = sensors.read(&state);
         let command = command(measured, controller, touched, time)?;

@@ -6,7 +6,7 @@ use super::estimate::Estimate;
 use super::estimating::{EstimateTally, Estimating};
 use crate::plant::PlantState;
 use crate::record::EncoderMemory;
-use crate::robot::SharedRobot;
+use crate::robot::{MOST_LEGS, SharedRobot};
 use crate::scene::{Sensing, StateSource};
 use nalgebra::Vector3;
 use surefoot::estimate::EstimateFault;
@@ -86,10 +86,18 @@ impl Sensors {
     }
 
     /// Tells switches of the ground's vertical forces on the feet (N), and the estimator which feet a planner has
-    /// stand (all of them, or those of before, unless said), before a tick. Of no use to others.
-    pub fn see_feet(&mut self, forces: impl Iterator<Item = f64>, planned: Option<&[bool]>) {
-        if let Some(estimating) = &mut self.estimating {
-            estimating.see_feet(forces, planned);
+    /// stand (all of them unless said), before a tick. Of no use to others.
+    ///
+    /// # Returns
+    /// What the feet's switches say, as forces: the robot's weight of a foot that presses.
+    pub fn see_feet(
+        &mut self,
+        forces: impl Iterator<Item = f64>,
+        planned: Option<[bool; MOST_LEGS]>,
+    ) -> Vec<f64> {
+        match &mut self.estimating {
+            Some(estimating) => estimating.see_feet(forces, planned),
+            None => Vec::new(),
         }
     }
 

@@ -33,7 +33,7 @@ pub(super) struct WholeBodyHost<T, const N: usize, const NQ: usize, const NV: us
     pub(super) time_s: f64,
     pub(super) tally: LimitTally,
     observer: Option<Box<dyn Observe<T>>>,
-    friction: Option<Friction<T>>,
+    pub(super) friction: Option<Friction<T>>,
 }
 
 /// The same with its supervisor, which takes joints in rows of six.
