@@ -185,7 +185,7 @@ fn advance(
     let mut touched = scene.controller.torques_from == TorquesFrom::Start;
     let mut sensors = Sensors::of_robot(&scene.sensing, steps_per_tick as f64 * step, &robot);
     let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize, joints);
-    let mut first = 0;
+    let (mut first, mut noted) = (0, 0);
     if let Some(saved) = from {
         if sensors.is_estimating() {
             return Err(not_resumed());
@@ -261,8 +261,13 @@ fn advance(
         run.cut_torques = motors.cut();
         let sent = (&command.desired_wrench, motors.over_step(0));
         sample(seen, scene, &state, sent, time, run);
-        if let (true, Some(last)) = (sensors.is_estimating(), run.samples.last_mut()) {
-            last.estimate = Some(central(sensors.seen()));
+        if let Some(last) = run.samples.last_mut() {
+            last.estimate = sensors.is_estimating().then(|| central(sensors.seen()));
+            let tally = controller.limits().filter(|tally| tally.ticks > noted);
+            last.note = tally.map(|tally| {
+                noted = tally.ticks;
+                tally.last
+            });
         }
         fallen(&state, robot.fallen_height, time)?;
         if is_last {
@@ -344,6 +349,7 @@ fn sample(
         corner_forces: seen.corner_forces,
         block: seen.block,
         estimate: None,
+        note: None,
     });
 }
 

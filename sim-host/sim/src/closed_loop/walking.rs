@@ -171,6 +171,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
             friction.add(&mut command.torques[6..], &state.velocities[6..], wanted);
         }
         body.count(&command.limits);
+        body.tally.last.capture_point = Some(task.capture_point.map(Real::to_f64).into());
         Ok(command)
     }
 

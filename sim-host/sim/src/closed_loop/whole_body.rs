@@ -106,6 +106,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
     /// What limits did in a tick.
     pub(super) fn count(&mut self, report: &WholeBodyReport<T, FEET>) {
         self.tally.count_tick(&self.robot, self.time_s, &TickLimits::from(report));
+        self.tally.last.work = Some(report.work);
     }
 
     /// Another tick's state, as the observer takes it.
