@@ -202,6 +202,7 @@ impl Control {
             let measured = newest.filter(|newest| waited(newest) <= self.patience_us);
             is_measured = measured.is_some();
             let Self { supervisor, balance, reference, .. } = self;
+            #[cfg(not(estimates))]
             let state = measured.map(|measured| &measured.state);
             #[cfg(estimates)]
             let sensing = &mut self.sensing;
