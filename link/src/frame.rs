@@ -4,7 +4,7 @@ use crate::sequence::FrameNumber;
 use serde::Serialize;
 
 /// Version of the messages. Both ends must have the same; it goes up when a message changes.
-pub const VERSION: u8 = 4;
+pub const VERSION: u8 = 5;
 
 /// Largest frame of robots with so many joints, in bytes on the wire, its end included: their settings,
 /// or the status, which is that of all robots.

@@ -7,8 +7,8 @@ use super::events::Watch;
 use super::memory::{memory, remember};
 use super::plant::plant;
 use super::{
-    Commanded, Controller, Costs, CutTorques, EstimateTally, Failure, Gait, LimitTally, Motors,
-    Outcome, Sensors,
+    Commanded, ControlFailure, Controller, Costs, CutTorques, EstimateTally, Failure, Gait,
+    LimitTally, Motors, Outcome, Sensors,
 };
 use crate::follow::Follow;
 use crate::plant::{Observation, PerPoint, Plant, PlantState};
@@ -183,7 +183,12 @@ fn advance(
     let (mut state, mut contacts) = (PlantState::home(joints), PerPoint::new());
     let mut feet = Vec::with_capacity(robot.leg_count());
     let mut touched = scene.controller.torques_from == TorquesFrom::Start;
-    let mut sensors = Sensors::of_robot(&scene.sensing, steps_per_tick as f64 * step, &robot);
+    let mut sensors = Sensors::of_robot(
+        &scene.sensing,
+        steps_per_tick as f64 * step,
+        &robot,
+        controller.filter_place(),
+    );
     let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize, joints);
     let (mut first, mut noted) = (0, 0);
     if let Some(saved) = from {
@@ -248,8 +253,14 @@ fn advance(
         } else {
             controller.press(time, &seen.foot_forces);
         }
-        let measured = sensors.read(&state);
-        let command = command(measured, controller, touched, time)?;
+        sensors.read(&state);
+        if let Some((readings, start)) = sensors.readings() {
+            controller.sense(readings, start);
+        }
+        let command = command(sensors.seen(), controller, touched, time)?;
+        if let Some(filtered) = controller.filtered() {
+            sensors.note(&filtered);
+        }
         run.estimate = sensors.tally().cloned();
         if let Some(fault) = sensors.fault() {
             return Err(estimator_failed(time, fault));
@@ -314,15 +325,17 @@ fn command(
     active: bool,
     time: f64,
 ) -> Result<Commanded, Failure> {
-    if !active {
-        return Ok(Commanded { torques: vec![0.0; measured.joints()], desired_wrench: [0.0; 6] });
-    }
-    controller.tick(measured).map_err(|failure| Failure {
+    let failed = |failure: ControlFailure| Failure {
         kind: failure.kind(),
         time_s: time,
         place: failure.to_string(),
         advice: failure.advice().into(),
-    })
+    };
+    if !active {
+        controller.wait(measured).map_err(failed)?;
+        return Ok(Commanded { torques: vec![0.0; measured.joints()], desired_wrench: [0.0; 6] });
+    }
+    controller.tick(measured).map_err(failed)
 }
 
 fn sample(

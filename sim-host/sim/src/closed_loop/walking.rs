@@ -1,6 +1,7 @@
 //! A robot that walks: core's planner over its whole-body controller, from commands of a scene.
 
-use super::controller::{Commanded, ControlFailure, Controller, measured};
+use super::controller::{Commanded, ControlFailure, Controller, Scalar, measured};
+use super::filter::FilterPlace;
 use super::gait::GaitTally;
 use super::limiting::LimitTally;
 use super::supervised::{of_state, recorded, remembered};
@@ -215,6 +216,10 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usize> Controller
     for WalkingHost<T, N, NQ, NV, ROWS>
 {
+    fn filter_place(&self) -> FilterPlace {
+        FilterPlace::Host(Scalar::of::<T>())
+    }
+
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let Self { walker, supervisor } = self;
         let Some(supervisor) = supervisor else {

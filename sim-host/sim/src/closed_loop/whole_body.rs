@@ -1,7 +1,8 @@
 //! The whole-body controller on the host: of robots whose legs have not six joints each, or that move other limbs.
 
-use super::controller::{Commanded, ControlFailure, Controller, measured};
+use super::controller::{Commanded, ControlFailure, Controller, Scalar, measured};
 use super::disturbance::{Observe, observer};
+use super::filter::FilterPlace;
 use super::friction::Friction;
 use super::limiting::LimitTally;
 use super::supervised::{of_state, recorded, remembered};
@@ -146,6 +147,10 @@ pub(super) fn padded<const M: usize, T: Real>(numbers: &[f64]) -> [T; M] {
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Controller
     for WholeBodyHost<T, N, NQ, NV>
 {
+    fn filter_place(&self) -> FilterPlace {
+        FilterPlace::Host(Scalar::of::<T>())
+    }
+
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         self.look(state);
         let state = WholeBodyState {
@@ -216,6 +221,10 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usize> Controller
     for SupervisedWholeBody<T, N, NQ, NV, ROWS>
 {
+    fn filter_place(&self) -> FilterPlace {
+        FilterPlace::Host(Scalar::of::<T>())
+    }
+
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let Self { inner, supervisor } = self;
         inner.look(state);
