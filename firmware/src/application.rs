@@ -38,6 +38,9 @@ pub struct Application {
     receiver: Receiver<ToTarget, FRAME>,
     sender: Sender,
     pacing: Pacing,
+    /// s
+    #[cfg(estimates)]
+    period: f32,
     profile: Profile,
     /// Since the last settings the tick was told how the robot stands, and how it walks.
     told: [bool; 2],
@@ -75,6 +78,8 @@ impl Application {
             receiver: Receiver::new(),
             sender: Sender::new(session),
             pacing: Pacing::LockStep,
+            #[cfg(estimates)]
+            period: crate::control::PERIOD,
             profile: Profile::new(),
             told: [false; 2],
             log: Log::open(),
@@ -141,6 +146,27 @@ impl Application {
                     self.take_records(true);
                 }
                 return;
+            }
+            #[cfg(estimates)]
+            Ok(ToTarget::Readings { taken_us, readings }) => {
+                self.post_readings(taken_us, &readings);
+                if self.pacing == Pacing::LockStep {
+                    board::tick_now(self.counter);
+                    self.take_records(true);
+                }
+                return;
+            }
+            #[cfg(estimates)]
+            Ok(ToTarget::Filter(settings)) => {
+                FromTarget::Acknowledged(self.tell(|_| crate::sensing::filter(&settings)))
+            }
+            #[cfg(estimates)]
+            Ok(ToTarget::Observe(settings)) => FromTarget::Acknowledged(
+                self.tell(|period| crate::sensing::observer(&settings, period)),
+            ),
+            #[cfg(not(estimates))]
+            Ok(ToTarget::Readings { .. } | ToTarget::Filter(_) | ToTarget::Observe(_)) => {
+                FromTarget::Acknowledged(Acknowledged::Unsupported)
             }
             Ok(ToTarget::Hello) => FromTarget::Identity(self.identity()),
             Ok(ToTarget::Status) => FromTarget::Status(self.status()),
@@ -209,6 +235,10 @@ impl Application {
             self.profile.configure(&settings);
             self.told = [false; 2];
             self.pacing = settings.pacing;
+            #[cfg(estimates)]
+            {
+                self.period = settings.period;
+            }
             self.freshness = Freshness::new(period_us, drift(self.clock));
         }
         answer
@@ -233,6 +263,22 @@ impl Application {
             *told = true;
         }
         answer
+    }
+
+    /// A filter or an observer for ticks that are the last settings' period apart.
+    #[cfg(estimates)]
+    #[inline(never)]
+    fn tell(
+        &mut self,
+        told: impl FnOnce(f32) -> Result<crate::sensing::Told, Acknowledged>,
+    ) -> Acknowledged {
+        if !self.on_their_way.is_standby() {
+            return Acknowledged::Busy;
+        }
+        match told(self.period) {
+            Ok(told) => self.order(Order::Tell(told)),
+            Err(answer) => answer,
+        }
     }
 
     #[cfg(walks)]
@@ -271,9 +317,8 @@ impl Application {
         answer
     }
 
-    /// A measurement for the next tick, in the place of one that no tick has taken yet.
-    fn post(&mut self, taken_us: u32, sensors: &Sensors) {
-        let arrived_us = board::now_us();
+    /// Whether a measurement is one; another is counted.
+    fn is_fresh(&mut self, taken_us: u32, arrived_us: u32) -> bool {
         // Another sender has another clock.
         if self.session != self.receiver.session() {
             self.session = self.receiver.session();
@@ -283,6 +328,15 @@ impl Application {
             && self.freshness.accept(taken_us, arrived_us).is_err()
         {
             self.measurements_stale = self.measurements_stale.saturating_add(1);
+            return false;
+        }
+        true
+    }
+
+    /// A measurement for the next tick, in the place of one that no tick has taken yet.
+    fn post(&mut self, taken_us: u32, sensors: &Sensors) {
+        let arrived_us = board::now_us();
+        if !self.is_fresh(taken_us, arrived_us) {
             return;
         }
         let measurement = Measurement {
@@ -290,8 +344,35 @@ impl Application {
             state: sensors.state(),
             contacts: sensors.contacts(),
             #[cfg(walks)]
-            forces: core::array::from_fn(|foot| sensors.forces.get(foot).copied().unwrap_or(0.0)),
+            forces: forces(&sensors.forces),
+            #[cfg(estimates)]
+            inertial: None,
         };
+        self.hand_over(measurement);
+    }
+
+    /// What sensors read, likewise.
+    #[cfg(estimates)]
+    fn post_readings(&mut self, taken_us: u32, readings: &surefoot_link::Readings<JOINTS>) {
+        let arrived_us = board::now_us();
+        if !self.is_fresh(taken_us, arrived_us) {
+            return;
+        }
+        let measurement = Measurement {
+            arrived_us,
+            state: readings.joints(),
+            contacts: surefoot_link::by_foot(readings.contacts),
+            #[cfg(walks)]
+            forces: forces(&readings.forces),
+            inertial: Some(crate::sensing::Inertial {
+                imu: readings.imu(),
+                switches: surefoot_link::by_foot(readings.switches),
+            }),
+        };
+        self.hand_over(measurement);
+    }
+
+    fn hand_over(&mut self, measurement: Measurement) {
         if self.measurements.post(measurement) {
             self.measurements_replaced = self.measurements_replaced.saturating_add(1);
         }
@@ -391,6 +472,12 @@ fn drift(clock: Clock) -> u32 {
     }
 }
 
+/// Normal forces of a message, foot by foot.
+#[cfg(walks)]
+fn forces(all: &[f32]) -> [f32; robot::FEET] {
+    core::array::from_fn(|foot| all.get(foot).copied().unwrap_or(0.0))
+}
+
 fn torques(record: &Record) -> Torques {
     Torques {
         tick: record.tick,
@@ -402,6 +489,10 @@ fn torques(record: &Record) -> Torques {
         reason: record.reason,
         limits: record.limits,
         steps: record.steps,
+        #[cfg(estimates)]
+        estimated: record.estimated,
+        #[cfg(not(estimates))]
+        estimated: None,
         cost: record.cost,
         latency: record.latency,
     }

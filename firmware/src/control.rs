@@ -2,6 +2,8 @@
 
 use crate::board::{Counter, Motors, TickTimer, Watchdog, now_us};
 use crate::robot::{self, FEET, JOINTS, LIMITS, ROW, ROWS};
+#[cfg(estimates)]
+use crate::sensing::{Inertial, Sensing, Told};
 use crate::{Balance, Limits};
 use heapless::spsc::{Consumer, Producer, Queue};
 use surefoot::balance::{
@@ -9,6 +11,8 @@ use surefoot::balance::{
 };
 use surefoot::spatial::Quaternion;
 use surefoot_firmware::mailbox::{Mailbox, Reader, Writer};
+#[cfg(estimates)]
+use surefoot_link::Estimated;
 #[cfg(walks)]
 use surefoot_link::WalkOrder;
 use surefoot_link::{Pacing, SetPoint, Settings, TickLimits};
@@ -29,6 +33,9 @@ pub enum Order {
     /// What a robot that walks is to do.
     #[cfg(walks)]
     Walk(WalkOrder),
+    /// A filter or an observer; in standby only.
+    #[cfg(estimates)]
+    Tell(Told),
     /// A pose to hold.
     SetPoint(SetPoint),
     /// Begin to balance.
@@ -56,6 +63,9 @@ pub struct Record {
     pub limits: Option<TickLimits<f32>>,
     /// Steps so far.
     pub steps: u32,
+    /// What the filter has made of the readings.
+    #[cfg(estimates)]
+    pub estimated: Option<Estimated>,
     /// Torques cut to their limits so far.
     pub cut_torques: u32,
     /// Ticks so far.
@@ -92,6 +102,9 @@ pub struct Measurement {
     /// Normal forces on them, N.
     #[cfg(walks)]
     pub forces: [f32; FEET],
+    /// For a filter: then the state has joints alone.
+    #[cfg(estimates)]
+    pub inertial: Option<Inertial>,
 }
 
 /// Holds the newest measurement.
@@ -113,6 +126,8 @@ pub struct Control {
     patience_us: u32,
     records: Sending<Record>,
     balance: Balance,
+    #[cfg(estimates)]
+    sensing: Sensing,
     reference: Reference<f32>,
     supervisor: Supervisor<f32, ROWS>,
     /// Cost that a tick may have.
@@ -154,6 +169,8 @@ impl Control {
             patience_us: u32::MAX,
             records,
             balance: Balance::new(),
+            #[cfg(estimates)]
+            sensing: Sensing::new(),
             reference: robot::reference(),
             supervisor,
             deadline: Counter::deadline(Pacing::LockStep, PERIOD),
@@ -185,17 +202,35 @@ impl Control {
             let measured = newest.filter(|newest| waited(newest) <= self.patience_us);
             is_measured = measured.is_some();
             let Self { supervisor, balance, reference, .. } = self;
+            #[cfg(not(estimates))]
             let state = measured.map(|measured| &measured.state);
+            #[cfg(estimates)]
+            let sensing = &mut self.sensing;
+            #[cfg(estimates)]
+            let seen = measured.and_then(|measured| sensing.read(measured));
+            #[cfg(estimates)]
+            let state = seen.as_ref();
             #[cfg(walks)]
             let reference = &balance.reference(reference, state);
             #[cfg(walks)]
             if balance.leaps() {
                 supervisor.expect_leap();
             }
+            #[cfg(estimates)]
+            let reference = &match (state, measured) {
+                (Some(state), Some(measured)) if supervisor.mode() != Mode::Standby => {
+                    sensing.look(state, &measured.contacts, reference)
+                }
+                _ => *reference,
+            };
+            #[cfg(estimates)]
+            balance.under(sensing.external());
             supervisor.step_with(state, reference, self.overran, |now| {
                 balance.tick(now, reference, measured)
             })
         });
+        #[cfg(estimates)]
+        self.sensing.sent(&supervised.joint_torques);
         let limits = self.balance.take_limits();
         let mode = self.supervisor.mode();
         self.motors.set(&supervised.joint_torques, mode != Mode::Standby && mode != Mode::Stopped);
@@ -218,6 +253,8 @@ impl Control {
             steps: self.balance.steps(),
             #[cfg(not(walks))]
             steps: 0,
+            #[cfg(estimates)]
+            estimated: self.sensing.take_estimated(),
             cut_torques: self.supervisor.cut_torques(),
             tick: self.tick,
             orders: self.taken,
@@ -247,6 +284,12 @@ impl Control {
             }
             #[cfg(walks)]
             Order::Walk(order) => self.balance.walk(&order),
+            #[cfg(estimates)]
+            Order::Tell(told) => {
+                if self.supervisor.mode() == Mode::Standby {
+                    self.sensing.tell(told);
+                }
+            }
             Order::SetPoint(pose) => self.reference = reference(&pose),
             Order::Arm => self.supervisor.arm(),
             Order::Disarm => self.supervisor.disarm(),
@@ -266,6 +309,10 @@ impl Control {
             return;
         }
         self.balance.configure(settings);
+        #[cfg(estimates)]
+        {
+            self.sensing = Sensing::new();
+        }
         self.deadline = Counter::deadline(settings.pacing, settings.period);
         self.next_pacing = Some((settings.pacing, settings.period, settings.period_us()));
     }

@@ -46,6 +46,8 @@ mod no_init;
 mod profile;
 #[cfg(target_os = "none")]
 mod robot;
+#[cfg(all(target_os = "none", estimates))]
+mod sensing;
 #[cfg(all(target_os = "none", not(whole_body)))]
 mod six_jointed;
 #[cfg(all(target_os = "none", whole_body))]

@@ -11,12 +11,16 @@ mod of_file {
     pub use described::firmware::{ORIENTATION, POSITION};
     #[cfg(whole_body)]
     pub use described::whole_body::*;
+    #[cfg(all(estimates, not(whole_body)))]
+    pub use described::whole_body::{COORDINATES, FEET, NODES, TREE, VELOCITIES};
 }
 
 #[cfg(not(walks))]
 pub use of_file::GAINS;
+#[cfg(any(whole_body, estimates))]
+pub use of_file::{COORDINATES, NODES, VELOCITIES};
 #[cfg(whole_body)]
-pub use of_file::{COORDINATES, FEET as ON_FEET, JOINTS, NODES, ROWS, TREE, VELOCITIES};
+pub use of_file::{JOINTS, ROWS};
 #[cfg(not(whole_body))]
 pub use of_file::{LEGS as ROWS, LEGS as FEET, SOLES};
 #[cfg(not(walks))]
@@ -31,13 +35,23 @@ use surefoot_link::{RobotId, frame_bytes};
 #[cfg(not(whole_body))]
 pub static ROBOT: surefoot::balance::LeggedRobot<f32, ROWS> = of_file::ROBOT;
 
+/// All that moves, in flash.
+#[cfg(any(whole_body, estimates))]
+pub static MODEL: surefoot::model::Tree<f32, NODES, COORDINATES, VELOCITIES> = of_file::TREE;
+
 /// What its supervisor allows: settings may be tighter, and no wider.
-#[cfg(not(walks))]
-pub static LIMITS: SafetyLimits<f32, ROWS> = of_file::LIMITS;
-/// What its supervisor allows: settings may be tighter, and no wider.
-#[cfg(walks)]
-pub static LIMITS: SafetyLimits<f32, ROWS> =
-    of_file::LIMITS.with_rates(surefoot::walk::LANDING_RATE);
+pub static LIMITS: SafetyLimits<f32, ROWS> = {
+    #[cfg(not(walks))]
+    let limits = of_file::LIMITS;
+    #[cfg(walks)]
+    let limits = of_file::LIMITS.with_rates(surefoot::walk::LANDING_RATE);
+    #[cfg(estimates)]
+    let limits = {
+        use surefoot::estimate::{ANGULAR_VELOCITY_STEPS, VELOCITY_STEPS};
+        limits.with_steps(VELOCITY_STEPS, ANGULAR_VELOCITY_STEPS)
+    };
+    limits
+};
 
 /// Joints are supervised in rows of so many: a leg's, where all legs have six.
 pub const ROW: usize = 6;
@@ -46,9 +60,30 @@ pub const ROW: usize = 6;
 #[cfg(not(whole_body))]
 pub const JOINTS: usize = ROW * ROWS;
 
-/// Feet that the controller has room for.
+/// Its feet.
 #[cfg(whole_body)]
-pub const FEET: usize = ON_FEET.len();
+pub const FEET: usize = feet(&of_file::FEET);
+/// The same, as the file has them, without the places of feet that it does not have.
+#[cfg(any(whole_body, estimates))]
+pub const ON_FEET: [Option<surefoot::balance::WholeBodyFoot<f32>>; feet(&of_file::FEET)] = {
+    let mut own = [None; feet(&of_file::FEET)];
+    let mut foot = 0;
+    while foot < own.len() {
+        own[foot] = of_file::FEET[foot];
+        foot += 1;
+    }
+    own
+};
+
+/// Places up to the last that has a foot.
+#[cfg(any(whole_body, estimates))]
+const fn feet(places: &[Option<surefoot::balance::WholeBodyFoot<f32>>]) -> usize {
+    let mut count = places.len();
+    while count > 1 && places[count - 1].is_none() {
+        count -= 1;
+    }
+    count
+}
 
 /// Bytes of the largest frame.
 pub const FRAME: usize = frame_bytes(JOINTS);
@@ -58,7 +93,7 @@ pub const FRAME: usize = frame_bytes(JOINTS);
 pub const ID: RobotId = RobotId::of(&of_file::ROBOT, &of_file::LIMITS);
 /// What the other end knows it by.
 #[cfg(whole_body)]
-pub const ID: RobotId = RobotId::of_tree(&TREE, NODES, &ON_FEET, &of_file::LIMITS);
+pub const ID: RobotId = RobotId::of_tree(&of_file::TREE, NODES, &of_file::FEET, &of_file::LIMITS);
 
 const _: () = assert!(
     ID.fingerprint == of_file::FINGERPRINT,

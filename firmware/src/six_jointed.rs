@@ -2,10 +2,14 @@
 
 use crate::control::Measurement;
 use crate::robot::{GAINS, JOINTS, LIMITS, ROBOT, ROW, ROWS, SOLES, gains};
+#[cfg(not(estimates))]
+use surefoot::balance::limited_tick;
 use surefoot::balance::{
     Command, Controller, Fault, LimitError, LimitFault, LimitField, LimitMemory, Reference,
-    RobotState, Sole, WorkspaceForm, WrenchLimits, limited_tick, tick,
+    RobotState, Sole, WorkspaceForm, WrenchLimits, tick,
 };
+#[cfg(estimates)]
+use surefoot::{balance::limited_tick_under, spatial::Wrench};
 use surefoot_link::{
     Acknowledged, Settings, StanceSettings, TickLimits, WalkerSettings, WrenchSettings, by_leg,
 };
@@ -27,6 +31,9 @@ struct Limiting {
     limits: Limits,
     memory: LimitMemory<f32>,
     met: Option<TickLimits<f32>>,
+    /// A wrench from outside on the central body, if one is known.
+    #[cfg(estimates)]
+    external: Option<Wrench<f32>>,
 }
 
 impl Balance {
@@ -45,7 +52,21 @@ impl Balance {
     #[cold]
     #[inline(never)]
     pub fn limit(&mut self, limits: Limits) {
-        self.limiting = Some(Limiting { limits, memory: LimitMemory::new(), met: None });
+        self.limiting = Some(Limiting {
+            limits,
+            memory: LimitMemory::new(),
+            met: None,
+            #[cfg(estimates)]
+            external: None,
+        });
+    }
+
+    /// Under a wrench from outside at the next tick. Without limits of the ground nothing takes it.
+    #[cfg(estimates)]
+    pub fn under(&mut self, external: Option<Wrench<f32>>) {
+        if let Some(limiting) = &mut self.limiting {
+            limiting.external = external;
+        }
     }
 
     /// What limits made of the last tick; none where there are none.
@@ -79,8 +100,14 @@ impl Limiting {
         reference: &Reference<f32>,
         contacts: &[bool; ROWS],
     ) -> Result<Command<f32, ROWS>, Fault> {
-        let Self { limits, memory, met } = self;
+        let Self { limits, memory, met, .. } = self;
+        #[cfg(not(estimates))]
         let answer = limited_tick(controller, limits, state, reference, contacts, memory)?;
+        #[cfg(estimates)]
+        let answer = {
+            let around = (contacts, self.external);
+            limited_tick_under(controller, limits, state, reference, around, memory)?
+        };
         *met = Some(TickLimits::from(&answer.limits));
         Ok(answer.command)
     }

@@ -2,18 +2,15 @@
 //! all that walk.
 
 use crate::board::Counter;
-use crate::robot::{COORDINATES, FEET, JOINTS, LIMITS, NODES, ON_FEET, ROW, TREE, VELOCITIES};
+pub use crate::robot::MODEL;
+use crate::robot::{FEET, JOINTS, LIMITS, ON_FEET, ROW, VELOCITIES};
 use surefoot::balance::{
-    ContactLimits, LimitError, LimitFault, LimitField, WholeBody, WholeBodyFoot,
+    ContactLimits, LimitError, LimitFault, LimitField, WHOLE_BODY_FEET, WholeBody, WholeBodyFoot,
     WholeBodyRobotFault, WholeBodySettings,
 };
-use surefoot::model::Tree;
 use surefoot_link::{
     Acknowledged, FromTarget, Sensors, SetPoint, Settings, StanceSettings, WrenchSettings,
 };
-
-/// In flash.
-pub static MODEL: Tree<f32, NODES, COORDINATES, VELOCITIES> = TREE;
 
 /// How the robot stands: what a message says of it, ready for ticks.
 pub struct Stance {
@@ -34,7 +31,8 @@ pub fn stance(message: &StanceSettings<JOINTS>) -> Result<Stance, Acknowledged> 
     if !(is_positive(*height) && is_positive(*gravity)) {
         return Err(Acknowledged::Invalid);
     }
-    let mut settings = WholeBodySettings::scaled(*height, *gravity, FEET);
+    // A budget with room for the most feet that there are: the host's.
+    let mut settings = WholeBodySettings::scaled(*height, *gravity, WHOLE_BODY_FEET);
     let own = LIMITS.joints.as_flattened();
     let wanted = torques.iter().zip(posture.iter()).zip(own).enumerate();
     let places = settings.torques.iter_mut().zip(&mut settings.posture).skip(6);

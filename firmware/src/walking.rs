@@ -89,6 +89,10 @@ impl Balance {
         self.command = WalkCommand::from(order);
     }
 
+    /// What acts from outside is not taken into a walk.
+    #[cfg(estimates)]
+    pub fn under(&mut self, _: Option<surefoot::spatial::Wrench<f32>>) {}
+
     /// Steps so far.
     pub fn steps(&self) -> u32 {
         self.plan.steps

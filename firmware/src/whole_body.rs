@@ -3,10 +3,13 @@
 use crate::control::Measurement;
 use crate::robot::{FEET, GAINS, JOINTS, ROWS, gains};
 use crate::stance::{self, MODEL, Stance};
+#[cfg(not(estimates))]
+use surefoot::balance::whole_body_tick;
 use surefoot::balance::{
     Command, Fault, Reference, RobotState, WholeBodyController, WholeBodyMemory, WholeBodyState,
-    whole_body_tick,
 };
+#[cfg(estimates)]
+use surefoot::{balance::whole_body_tick_under, spatial::Wrench};
 use surefoot_link::{Acknowledged, Settings, StanceSettings, TickLimits, WalkerSettings};
 
 /// What is told before the robot is armed.
@@ -22,12 +25,22 @@ pub struct Balance {
     memory: WholeBodyMemory<f32>,
     /// Of the last tick.
     met: Option<TickLimits<f32>>,
+    /// A wrench from outside on the central body, if one is known.
+    #[cfg(estimates)]
+    external: Option<Wrench<f32>>,
 }
 
 impl Balance {
     /// With the gains of the robot's file; it does not know yet how the robot stands.
     pub fn new() -> Self {
-        Self { stance: None, gains: GAINS, memory: WholeBodyMemory::new(), met: None }
+        Self {
+            stance: None,
+            gains: GAINS,
+            memory: WholeBodyMemory::new(),
+            met: None,
+            #[cfg(estimates)]
+            external: None,
+        }
     }
 
     /// New gains; how it stands must be said again.
@@ -49,6 +62,12 @@ impl Balance {
         self.met.take()
     }
 
+    /// Under a wrench from outside at the next tick.
+    #[cfg(estimates)]
+    pub fn under(&mut self, external: Option<Wrench<f32>>) {
+        self.external = external;
+    }
+
     /// One tick.
     #[inline(never)]
     pub fn tick(
@@ -63,7 +82,13 @@ impl Balance {
         let controller = WholeBodyController { tree: &MODEL, robot, settings };
         let contacts = measured.map_or(&[true; FEET], |measured| &measured.contacts);
         let state = WholeBodyState::of_rows(state);
+        #[cfg(not(estimates))]
         let answer = whole_body_tick(&controller, &state, reference, contacts, memory)?;
+        #[cfg(estimates)]
+        let answer = {
+            let around = (contacts, self.external);
+            whole_body_tick_under(&controller, &state, reference, around, memory)?
+        };
         *met = Some(TickLimits::from(&answer.limits));
         Ok(answer.in_rows())
     }

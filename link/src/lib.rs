@@ -24,6 +24,7 @@ mod line;
 mod message;
 mod receiver;
 mod robot;
+mod sensing;
 mod sequence;
 mod status;
 mod walking;
@@ -38,5 +39,6 @@ pub use message::{
 };
 pub use receiver::{Receiver, Rejected, Tally};
 pub use robot::RobotId;
+pub use sensing::{Estimated, FilterSettings, ObserverSettings, Readings, by_foot};
 pub use status::{Clock, Crash, FaultLog, LineErrors, LoggedFault, NoCrystal, Status};
 pub use walking::{WalkOrder, WalkerFoot, WalkerSettings};

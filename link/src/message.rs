@@ -6,6 +6,7 @@
 use crate::joints::Joints;
 use crate::limits::{MOST_FEET, StanceSettings, TickLimits, WrenchSettings};
 use crate::robot::RobotId;
+use crate::sensing::{Estimated, FilterSettings, ObserverSettings, Readings, by_foot};
 use crate::status::{Clock, Crash, Status};
 use crate::walking::{WalkOrder, WalkerSettings};
 use serde::{Deserialize, Serialize};
@@ -32,6 +33,11 @@ pub enum ToTarget<const JOINTS: usize> {
     Walker(WalkerSettings),
     /// What a robot that walks is to do from the next tick on. Acknowledged.
     Walk(WalkOrder),
+    /// Estimate the state from [`Readings`](ToTarget::Readings), from the next of them on; in standby only.
+    /// Acknowledged; refused by firmware that does not estimate.
+    Filter(FilterSettings),
+    /// Observe disturbances; in standby only. Acknowledged; refused by firmware that does not estimate.
+    Observe(ObserverSettings),
     /// A pose to hold from now on. Acknowledged.
     SetPoint(SetPoint),
     /// Begin to balance this robot at the next tick. Acknowledged; refused by a target of another.
@@ -45,6 +51,13 @@ pub enum ToTarget<const JOINTS: usize> {
         taken_us: u32,
         /// What was measured.
         sensors: Sensors<JOINTS>,
+    },
+    /// What sensors read, in the place of a measurement, for firmware with a filter. Answered likewise.
+    Readings {
+        /// As of a measurement.
+        taken_us: u32,
+        /// What they read.
+        readings: Readings<JOINTS>,
     },
     /// How are you? Answered by [`FromTarget::Status`].
     Status,
@@ -194,6 +207,8 @@ pub struct Torques<const JOINTS: usize> {
     pub limits: Option<TickLimits<f32>>,
     /// Steps so far, of a robot that walks.
     pub steps: u32,
+    /// What the filter has made of the readings, where there is one.
+    pub estimated: Option<Estimated>,
     /// Cost of the tick, from measurement to torques.
     pub cost: u32,
     /// Cost between the tick's being due and its beginning.
@@ -247,6 +262,9 @@ impl<const JOINTS: usize> ToTarget<JOINTS> {
                 settings.torques.len() == joints && settings.posture.len() == joints
             }
             Self::Sensors { sensors, .. } | Self::Profile(sensors) => has(sensors),
+            Self::Readings { readings, .. } => {
+                readings.joint_angles.len() == joints && readings.joint_rates.len() == joints
+            }
             _ => true,
         }
     }
@@ -266,7 +284,7 @@ impl<const JOINTS: usize> Sensors<JOINTS> {
 
     /// Which feet touch the ground, leg by leg.
     pub fn contacts<const LEGS: usize>(&self) -> [bool; LEGS] {
-        core::array::from_fn(|leg| leg < 8 && self.contacts & (1 << leg) != 0)
+        by_foot(self.contacts)
     }
 
     /// The same as bits.

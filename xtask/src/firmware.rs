@@ -20,6 +20,9 @@ pub struct Options {
     /// Images that walk, below the robot's name with `-walks`.
     #[arg(long)]
     walks: bool,
+    /// Images that estimate the state and observe disturbances, below the robot's name with `-estimates`.
+    #[arg(long)]
+    estimates: bool,
     /// Only this image (may be given several times); all unless said.
     #[arg(long, value_name = "IMAGE")]
     image: Vec<Variant>,
@@ -33,6 +36,8 @@ pub struct Robot {
     name: String,
     /// Whether the images walk.
     walks: bool,
+    /// Whether they estimate the state.
+    estimates: bool,
     legs: Option<usize>,
 }
 
@@ -63,12 +68,18 @@ impl Robot {
             "{}: the name {name:?} is none for a folder; {EXPECTED}",
             file.display()
         );
-        Ok(Self { name: name.to_owned(), walks: false, legs: legs(&text), source })
+        let (name, legs) = (name.to_owned(), legs(&text));
+        Ok(Self { name, walks: false, estimates: false, legs, source })
     }
 
     /// The same, in images that walk.
     pub fn walking(self) -> Self {
         Self { walks: true, ..self }
+    }
+
+    /// The same, in images that estimate the state.
+    pub fn estimating(self) -> Self {
+        Self { estimates: true, ..self }
     }
 
     /// Its robot.rs.
@@ -128,8 +139,9 @@ impl Variant {
     /// Where a robot's image is put: the simulator and its tests look there.
     pub fn path(self, robot: &Robot) -> PathBuf {
         let walks = if robot.walks { "-walks" } else { "" };
-        let folder =
-            workspace::root().join("target/firmware").join(format!("{}{walks}", robot.name));
+        let estimates = if robot.estimates { "-estimates" } else { "" };
+        let folder = format!("{}{walks}{estimates}", robot.name);
+        let folder = workspace::root().join("target/firmware").join(folder);
         folder.join(format!("{}.elf", self.name()))
     }
 
@@ -144,6 +156,9 @@ impl Variant {
         let mut cargo = cargo.env("SUREFOOT_ROBOT", &robot.source);
         if robot.walks {
             cargo = cargo.env("SUREFOOT_WALKS", "1");
+        }
+        if robot.estimates {
+            cargo = cargo.env("SUREFOOT_ESTIMATES", "1");
         }
         let built = workspace::executables(cargo, [])?;
         let built = built.first().context("cargo has built no image")?;
@@ -166,6 +181,7 @@ pub fn run(options: &Options) -> Result<()> {
         None => Robot::of_the_text()?,
     };
     let robot = if options.walks { robot.walking() } else { robot };
+    let robot = if options.estimates { robot.estimating() } else { robot };
     let images = if options.image.is_empty() { &Variant::ALL[..] } else { &options.image };
     emulator::provide()?;
     let arm = ArmToolchain::provide()?;

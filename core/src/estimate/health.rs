@@ -5,6 +5,7 @@ use crate::Real;
 
 /// What can be out of bounds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Concern {
     /// `|b_f|`: an estimate that was started wrong, or a sensor that is not mounted as said.
     AccelerometerBias,
@@ -24,6 +25,7 @@ pub enum Concern {
 
 /// One thing that is.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OutOfBounds<T> {
     /// What.
     pub concern: Concern,

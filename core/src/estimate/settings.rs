@@ -35,6 +35,7 @@ pub enum Floor<T> {
 
 /// Standard deviations: of what drifts per √s, of what is measured at each tick of 2 ms.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SensorNoise<T> {
     /// Accelerometer, m/s²/√Hz.
     pub accelerometer: T,

@@ -122,6 +122,38 @@ impl<T: Real> Quaternion<T> {
         )
     }
 
+    /// The orientation of a rotation matrix, its largest component positive: from that of the four which is
+    /// largest, so that nothing is divided by a small number (Shepperd, J. Guidance and Control 1(3), 1978). Of a
+    /// matrix that is none, whatever comes out.
+    #[inline]
+    pub fn from_matrix(m: &Matrix3<T>) -> Self {
+        let (one, half) = (T::one(), T::of(0.5));
+        let trace = m.m11 + m.m22 + m.m33;
+        let most = m.m11.max(m.m22).max(m.m33);
+        let of = |square: T| {
+            let root = square.sqrt();
+            (root * half, half / root)
+        };
+        if trace >= most {
+            let (s, scale) = of(one + trace);
+            let v = Vector3::new(m.m32 - m.m23, m.m13 - m.m31, m.m21 - m.m12) * scale;
+            return Self { s, v };
+        }
+        if m.m11 >= most {
+            let (x, scale) = of(one + m.m11 - m.m22 - m.m33);
+            let v = Vector3::new(x, (m.m12 + m.m21) * scale, (m.m13 + m.m31) * scale);
+            return Self { s: (m.m32 - m.m23) * scale, v };
+        }
+        if m.m22 >= most {
+            let (y, scale) = of(one + m.m22 - m.m11 - m.m33);
+            let v = Vector3::new((m.m12 + m.m21) * scale, y, (m.m23 + m.m32) * scale);
+            return Self { s: (m.m13 - m.m31) * scale, v };
+        }
+        let (z, scale) = of(one + m.m33 - m.m11 - m.m22);
+        let v = Vector3::new((m.m13 + m.m31) * scale, (m.m23 + m.m32) * scale, z);
+        Self { s: (m.m21 - m.m12) * scale, v }
+    }
+
     /// `dq/dt` for the body angular velocity `ω` (rad/s): `½ q ⋆ (0, ω)`, the product `B(q)ω` of (A.4).
     #[inline]
     pub fn rate(self, body_angular_velocity: Vector3<T>) -> Self {

@@ -2,6 +2,7 @@
 
 mod axes;
 mod bars;
+mod footprints;
 mod heat_map;
 mod log_log;
 mod marks;
@@ -12,11 +13,12 @@ mod time_series;
 mod xy;
 
 pub use bars::{Bar, Bars};
+pub use footprints::footprints;
 pub use heat_map::{CellAxis, CellKind, CellLine, HeatMap};
 pub use log_log::{LogLogChart, MarkedCurve};
 pub use marks::marks;
 pub use mechanism_figures::{MECHANISM_FIGURES, MechanismFigure};
-pub use run_figures::{RUN_FIGURES, RunFigure};
+pub use run_figures::{LIMIT_FIGURES, RUN_FIGURES, RunFigure};
 pub use style::ChartError;
 pub use time_series::{Mark, Panel, Series, TimeSeries};
 pub use xy::{XyChart, XySeries};

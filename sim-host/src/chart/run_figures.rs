@@ -33,6 +33,10 @@ pub const RUN_FIGURES: [RunFigure; 10] = [
     RunFigure { name: "ground-forces", title: "forces of the ground", panels: ground_forces },
 ];
 
+/// Of runs whose controller knows limits.
+pub const LIMIT_FIGURES: [RunFigure; 1] =
+    [RunFigure { name: "limits", title: "limits of ground and motors", panels: limits }];
+
 impl RunFigure {
     /// Draws it as SVG; `of` names the run.
     ///
@@ -213,6 +217,40 @@ fn ground_forces(robot: &Robot, samples: &[Sample]) -> Vec<Panel> {
         let force = |sample: &Sample, i: usize| sample.block.map_or(0.0, |block| -block.force[i]);
         let force = along(samples, 0..=2, force);
         panels.push(panel("Force of the block on the body, world frame", "N", force));
+    }
+    panels
+}
+
+/// How near motors come to their limits, which limit of the ground binds, and what the program took.
+fn limits(robot: &Robot, samples: &[Sample]) -> Vec<Panel> {
+    let share = |sample: &Sample, joints: &[usize]| {
+        let shares = joints.iter().map(|i| sample.torques[*i].abs() / robot.limits.joints[*i].torque);
+        100.0 * shares.fold(0.0, f64::max)
+    };
+    let of_leg = |(leg, name): (usize, &String)| {
+        let own = robot.leg_joints.get(leg).map_or(&[][..], Vec::as_slice);
+        series(samples, name, move |sample| share(sample, own))
+    };
+    let torques = robot.legs.iter().enumerate().map(of_leg).collect();
+    let binds = |sample: &Sample, word: &str| {
+        let limit = sample.note.as_ref().and_then(|note| note.limit.as_ref());
+        limit.filter(|limit| limit.limit == word).map_or(f64::NAN, |limit| limit.relief)
+    };
+    let words = ["slip", "tip", "twist", "lift", "press", "torque"];
+    let is_met = |word: &&str| samples.iter().any(|sample| binds(sample, word).is_finite());
+    let met = words.into_iter().filter(is_met);
+    let met: Vec<_> = met.map(|word| series(samples, word, |s| binds(s, word))).collect();
+    let mut panels = vec![panel("Largest torque over its limit, by leg", "%", torques)];
+    if !met.is_empty() {
+        panels.push(panel("The limit that costs most, by what it costs", "relief", met));
+    }
+    let work = |sample: &Sample| {
+        let work = sample.note.as_ref().and_then(|note| note.work);
+        work.map_or(f64::NAN, |work| 1e-3 * f64::from(work))
+    };
+    if samples.iter().any(|sample| work(sample).is_finite()) {
+        let work = vec![series(samples, "work", work)];
+        panels.push(panel("Work of the program within limits", "1000 multiplications", work));
     }
     panels
 }

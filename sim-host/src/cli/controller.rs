@@ -7,7 +7,7 @@ use surefoot_sim::closed_loop::firmware::{
     Emulator, LinkError, SerialPort, firmware_controller, image_for,
 };
 use surefoot_sim::closed_loop::{self, Controller, Scalar};
-use surefoot_sim::scene::{Disturbance, Scene};
+use surefoot_sim::scene::Scene;
 
 /// Options of `run` about the controller.
 #[derive(Debug, Args)]
@@ -76,9 +76,6 @@ impl ControllerOptions {
         let settings = &scene.controller;
         let wanted = match self.place {
             Place::Host | Place::Bare => None,
-            Place::Firmware if settings.disturbance == Disturbance::Observed => {
-                Some("observes disturbances (`controller.disturbance`)")
-            }
             Place::Firmware if settings.friction_share > 0.0 => {
                 Some("makes up for friction (`controller.friction_share`)")
             }

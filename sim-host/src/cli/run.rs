@@ -7,7 +7,7 @@ use super::model::ModelName;
 use super::report::{self, Report};
 use super::run_mechanism::run_mechanism;
 use super::{RUN_FAILED, bad_input, complain, recommended, say};
-use crate::chart::{RUN_FIGURES, RunFigure};
+use crate::chart::{LIMIT_FIGURES, RUN_FIGURES, RunFigure, footprints};
 use crate::report::page;
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -323,7 +323,11 @@ fn write_files(folder: &Path, report: &Report<'_>) -> Result<Vec<PathBuf>, Strin
         &run.events,
         || page(&report.page()).map_err(|error| error.to_string()),
         || {
-            let mut figures = RUN_FIGURES.iter().map(drawn).collect::<Result<Vec<_>, String>>()?;
+            let has_limits = run.samples.iter().any(|sample| sample.note.is_some());
+            let figures = RUN_FIGURES.iter().chain(LIMIT_FIGURES.iter().filter(|_| has_limits));
+            let mut figures = figures.map(drawn).collect::<Result<Vec<_>, String>>()?;
+            let steps = footprints(&scene.name, &robot, &run.samples);
+            figures.extend(steps.map(|svg| ("steps", svg)));
             if let Some(gait) = run.gait.as_ref().filter(|gait| gait.falls == 0) {
                 // Two seconds of the walk at its full speed.
                 let picture = moving(&record, [gait.ended_s - 2.0, gait.ended_s]);

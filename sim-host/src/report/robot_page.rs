@@ -2,7 +2,7 @@
 
 use super::page::{Content, FailureText, PageFailure, Sheet, Word, drawn};
 use super::tables;
-use crate::chart::{ChartError, RUN_FIGURES};
+use crate::chart::{ChartError, LIMIT_FIGURES, RUN_FIGURES, footprints};
 use crate::experiments::{reading, robot_figures};
 use surefoot_sim::closed_loop::{Failure, Outcome, Run};
 use surefoot_sim::picture::{DESIRED_FORCE_LENGTH, FORCE_LENGTH, TORQUE_LENGTH};
@@ -69,7 +69,12 @@ fn figures(scene: &str, robot: &Robot, run: &Run) -> Result<Vec<String>, ChartEr
         None => scene.to_owned(),
     };
     let charts = RUN_FIGURES.iter().enumerate();
-    charts.map(|(i, chart)| chart.svg(&of(i), robot, &run.samples, &run.events)).collect()
+    let charts = charts.map(|(i, chart)| chart.svg(&of(i), robot, &run.samples, &run.events));
+    let steps = footprints(scene, robot, &run.samples).into_iter().map(Ok);
+    let has_limits = run.samples.iter().any(|sample| sample.note.is_some());
+    let limits = LIMIT_FIGURES.iter().filter(|_| has_limits);
+    let limits = limits.map(|chart| chart.svg(scene, robot, &run.samples, &run.events));
+    steps.chain(charts).chain(limits).collect()
 }
 
 fn word(run: &Run) -> Word {

@@ -2,8 +2,8 @@
 
 use super::Report;
 use crate::experiments::{Comparison, printed_figures, reading};
-use surefoot_sim::closed_loop::{Gait, Peaks, Run};
-use surefoot_sim::record::{Event, Settling};
+use surefoot_sim::closed_loop::{Gait, LimitTally, Peaks, Run, WorstLimit};
+use surefoot_sim::record::{EstimateErrors, Event, Settling, WorstErrors};
 use surefoot_sim::robot::Robot;
 use surefoot_sim::scene::{Feet, TorquesFrom};
 
@@ -38,6 +38,17 @@ pub(super) fn facts(report: &Report<'_>) -> Vec<Fact> {
         add("position within 1 mm", settled(position_s));
         add("orientation within 0.1°", settled(orientation_s));
     }
+    if let Some(limits) = run.limits.as_ref().filter(|limits| limits.ticks > 0) {
+        add("limits", limited(limits));
+    }
+    if let Some(errors) = WorstErrors::of(&run.samples) {
+        let (last, worst) = (errors.last, errors.worst);
+        let error = |errors: EstimateErrors| {
+            let tilt = errors.tilt_error_rad.to_degrees();
+            format!("{:.1} mm, {tilt:.2}° of tilt", 1e3 * errors.position_error_m)
+        };
+        add("estimate off by", format!("{} at the end; {} at most", error(last), error(worst)));
+    }
     add("simulated", format!("{} s, {}", scene.duration_s, reading(scene.controller.torques_from)));
     let (method, step) = (scene.integrator.name.name(), 1e3 * scene.integrator.step_s);
     add("method", format!("{method}, steps of {step} ms"));
@@ -54,6 +65,14 @@ pub(super) fn facts(report: &Report<'_>) -> Vec<Fact> {
     add("cost", format!("{} steps in {seconds:.2} s: {per_step:.1} µs a step", run.steps));
     add("feet", feet(&scene.feet));
     facts
+}
+
+/// How often limits bound, and which most.
+fn limited(limits: &LimitTally) -> String {
+    let share = format!("bound in {:.1} % of the ticks", 100.0 * limits.active_share);
+    let Some(WorstLimit { limit, leg, joint, time_s, .. }) = &limits.worst else { return share };
+    let joint = joint.map_or_else(String::new, |joint| format!(", joint {joint}"));
+    format!("{share}; most of all {limit}, {leg}{joint}, at {time_s:.3} s")
 }
 
 fn feet(feet: &Feet) -> String {

@@ -102,6 +102,13 @@ impl<const LEGS: usize> SafetyLimits<f32, LEGS> {
         }
         self
     }
+
+    /// With steps of the central body's velocity and angular velocity that are believed so many times as large.
+    pub const fn with_steps(mut self, velocity: f32, angular_velocity: f32) -> Self {
+        self.thresholds.velocity_step *= velocity;
+        self.thresholds.angular_velocity_step *= angular_velocity;
+        self
+    }
 }
 
 impl<const LEGS: usize> SafetyLimits<f64, LEGS> {

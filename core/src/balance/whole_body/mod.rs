@@ -53,7 +53,7 @@ pub use observed::{ObservedBody, observe};
 pub use program::WholeBodyLimit;
 pub use report::{WholeBodyCommand, WholeBodyMemory, WholeBodyReport, WholeBodyState};
 pub(crate) use robot::Leg;
-pub use robot::{MOST_JOINTS, MOST_LEG_JOINTS, WholeBody, WholeBodyFoot};
+pub use robot::{MOST_JOINTS, MOST_LEG_JOINTS, WHOLE_BODY_FEET, WholeBody, WholeBodyFoot};
 pub use settings::WholeBodySettings;
 pub use task::{AngularTask, FootTask, LinearTask, MotionTask, ObservedFoot, ObservedMotion};
 pub use tick::{WholeBodyController, whole_body_tick, whole_body_tick_under};

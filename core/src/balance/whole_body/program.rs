@@ -12,7 +12,7 @@
 //! | 128 + 2k, 129 + 2k | `limit − τ_k`, `limit + τ_k` of the joint with velocity 6 + k |
 
 use super::reduced::Reduced;
-use super::robot::{BodyJoint, WholeBody};
+use super::robot::{BodyJoint, WHOLE_BODY_FEET, WholeBody};
 use crate::Real;
 use crate::balance::contact_wrenches::split_row;
 use crate::balance::{ContactLimit, ContactProgram, Reason};
@@ -152,8 +152,9 @@ impl<'a, T: Real, const FEET: usize, const NV: usize> Program<T>
     type Factor = <Contacts<'a, T, FEET> as Program<T>>::Factor;
 
     const COST: ProgramCost = {
-        let contacts = <Contacts<'a, T, FEET> as Program<T>>::COST;
-        let (feet, joints) = (FEET as Work, NV.saturating_sub(BASE) as Work);
+        // As if all places had feet: a robot's work does not depend on how many it is given room for.
+        let contacts = <Contacts<'a, T, WHOLE_BODY_FEET> as Program<T>>::COST;
+        let (feet, joints) = (WHOLE_BODY_FEET as Work, NV.saturating_sub(BASE) as Work);
         ProgramCost {
             factor: contacts.factor,
             response: contacts.response,

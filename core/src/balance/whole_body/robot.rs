@@ -12,6 +12,9 @@ pub const MOST_LEG_JOINTS: usize = 7;
 /// Joints of a robot at most: the number of a torque's row is one byte, of which feet take 128.
 pub const MOST_JOINTS: usize = 64;
 
+/// Feet of a robot at most.
+pub const WHOLE_BODY_FEET: usize = 4;
+
 /// A foot as a person describes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WholeBodyFoot<T> {
@@ -97,7 +100,7 @@ impl<T: Real, const FEET: usize, const NV: usize> WholeBody<T, FEET, NV> {
         feet: &[Option<WholeBodyFoot<T>>; FEET],
     ) -> Result<Self, WholeBodyRobotFault> {
         const {
-            assert!(FEET >= 1 && FEET <= 4, "one to four feet");
+            assert!(FEET >= 1 && FEET <= WHOLE_BODY_FEET, "one to four feet");
             assert!(NV <= 6 + MOST_JOINTS, "at most 64 joints");
         }
         if !matches!(tree.joint(0), Some(JointKind::Floating)) {

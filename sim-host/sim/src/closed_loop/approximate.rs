@@ -1,8 +1,9 @@
 //! Controllers that compute less than they should: what a control engineer would try, and what it does.
 
 use super::controller::{
-    Commanded, ControlFailure, Controller, HostController, commanded, measured,
+    Commanded, ControlFailure, Controller, HostController, Scalar, commanded, measured,
 };
+use super::filter::FilterPlace;
 use crate::plant::PlantState;
 use serde::Serialize;
 use surefoot::Real;
@@ -105,6 +106,10 @@ impl<T: Real, const LEGS: usize> ApproximateController<T, LEGS> {
 }
 
 impl<T: Real, const LEGS: usize> Controller for ApproximateController<T, LEGS> {
+    fn filter_place(&self) -> FilterPlace {
+        FilterPlace::Host(Scalar::of::<T>())
+    }
+
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let (torques, wrench) = self.torques(state).map_err(ControlFailure::Fault)?;
         Ok(commanded(torques, wrench))

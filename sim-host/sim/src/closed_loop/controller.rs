@@ -2,6 +2,7 @@
 
 use super::approximate::{ApproximateController, Approximation};
 use super::disturbance::{Observe, observer};
+use super::filter::{FilterPlace, Filtered, SensorReadings};
 use super::firmware::LinkError;
 use super::friction::Friction;
 use super::gait::GaitTally;
@@ -11,7 +12,7 @@ use super::walking::{WalkingHost, walking_limits};
 use super::whole_body::{SupervisedWholeBody, WholeBodyHost};
 use crate::plant::PlantState;
 use crate::record::SupervisorMemory;
-use crate::robot::{LEG, SharedRobot, by_leg, with_tree};
+use crate::robot::{LEG, MOST_LEGS, SharedRobot, by_leg, with_tree};
 use crate::scene::{Scene, Workspace};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -19,6 +20,7 @@ use surefoot::Real;
 use surefoot::balance::{
     self, Fault, Gains, LeggedRobot, Reference, RobotState, StopReason, WorkspaceForm, tick,
 };
+use surefoot::estimate::StartPose;
 use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, SymmetricMatrix3, Twist, Wrench};
 
@@ -30,6 +32,13 @@ pub enum Scalar {
     F32,
     /// Double precision.
     F64,
+}
+
+impl Scalar {
+    /// Of numbers of this type.
+    pub fn of<T: Real>() -> Self {
+        if T::default_epsilon().to_f64() > 1e-10 { Self::F32 } else { Self::F64 }
+    }
 }
 
 /// A tick's answer, in f64 whatever the controller computes in.
@@ -48,6 +57,30 @@ pub trait Controller {
     /// # Errors
     /// Why there are no torques.
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure>;
+
+    /// Where the state that it sees is estimated, if that is estimated.
+    fn filter_place(&self) -> FilterPlace {
+        FilterPlace::Host(Scalar::F64)
+    }
+
+    /// Tells it before a tick what sensors read, and where the robot was at the first, if it estimates the state itself.
+    fn sense(&mut self, readings: &SensorReadings, start: &StartPose<f64>) {
+        let _ = (readings, start);
+    }
+
+    /// A tick whose torques nobody wants yet.
+    ///
+    /// # Errors
+    /// The link's.
+    fn wait(&mut self, state: &PlantState) -> Result<(), ControlFailure> {
+        let _ = state;
+        Ok(())
+    }
+
+    /// What it has made of the last tick's readings, if it estimates the state itself.
+    fn filtered(&self) -> Option<Filtered> {
+        None
+    }
 
     /// Why its supervisor has stopped the robot, if it has: its torques brake from then on.
     fn stopped(&self) -> Option<StopReason> {
@@ -73,6 +106,11 @@ pub trait Controller {
     /// Tells it before a tick the time (s) and how the ground presses on each foot, N.
     fn press(&mut self, time_s: f64, normal_forces: &[f64]) {
         let _ = (time_s, normal_forces);
+    }
+
+    /// Which feet its plan has on the ground until its next tick, if it has a plan.
+    fn planned(&self) -> Option<[bool; MOST_LEGS]> {
+        None
     }
 
     /// What it has walked so far, if it walks.
@@ -401,6 +439,10 @@ pub fn measured<T: Real, const LEGS: usize>(state: &PlantState) -> RobotState<T,
 }
 
 impl<T: Real, const LEGS: usize> Controller for HostController<T, LEGS> {
+    fn filter_place(&self) -> FilterPlace {
+        FilterPlace::Host(Scalar::of::<T>())
+    }
+
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         self.look(state);
         let command = self.command(&measured(state)).map_err(ControlFailure::Fault)?;

@@ -55,6 +55,27 @@ pub(super) fn observer<T: Real, const N: usize, const NQ: usize, const NV: usize
         .then(|| Box::new(Observing::new(tree, scene)) as Box<dyn Observe<T>>)
 }
 
+/// What an observer's starting values follow from.
+pub(super) struct Observed {
+    /// kg
+    pub mass: f64,
+    /// m/s²
+    pub gravity: f64,
+    /// Of the central body above its feet, m.
+    pub height: f64,
+    /// Where the centre of mass is to stand from the mean of the feet, m.
+    pub nominal: [f64; 2],
+}
+
+impl Observed {
+    /// Of a scene's robot.
+    pub fn of(scene: &Scene) -> Self {
+        let robot = scene.robot();
+        let (nominal, height) = nominal(scene);
+        Self { mass: robot.tree.mass(), gravity: robot.tree.gravity().norm(), height, nominal }
+    }
+}
+
 struct Observing<T, const N: usize, const NQ: usize, const NV: usize> {
     tree: Tree<T, N, NQ, NV>,
     model: WholeBody<T, FEET, NV>,
@@ -72,10 +93,9 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Observing<T, N, 
         let contacts = Contacts::of(&robot).expect("a robot with feet on legs");
         let feet = contacts.feet.map(|foot| foot.map(|foot| foot.rounded()));
         let model = WholeBody::new(&tree, &feet).expect("a robot with feet on legs");
-        let (nominal, height) = nominal(scene);
-        let gravity = robot.tree.gravity().norm();
+        let Observed { mass, gravity, height, nominal } = Observed::of(scene);
         let settings = DisturbanceSettings::scaled(
-            T::of(robot.tree.mass()),
+            T::of(mass),
             T::of(gravity),
             T::of(height),
             T::of(1.0 / scene.controller.rate_hz),

@@ -1,5 +1,6 @@
 //! The state estimator in the loop: what it is fed, and what it makes of the state that controllers see.
 
+use super::filter::{Filter, FilterPlace, Filtered, SensorReadings};
 use super::inertial::{InertialSensor, logarithm};
 use super::whole_body_settings::FEET;
 use crate::plant::PlantState;
@@ -8,17 +9,11 @@ use crate::scene::Sensing;
 use nalgebra::Vector3;
 use serde::Serialize;
 use surefoot::balance::WholeBodyFoot;
-use surefoot::estimate::{
-    EstimateFault, Estimator, EstimatorState, FootKind, FootReading, Readings, SensorNoise,
-    StartPose,
-};
+use surefoot::estimate::{EstimateFault, StartPose};
 use surefoot::spatial::{Pose, Quaternion};
 
 /// A foot's switch closes at this share of the robot's weight: 20 N of a person's.
 const SWITCH_SHARE: f64 = 0.03;
-/// Of the direction in which the feet's forces are found, m/s²/√Hz: a tenth in variance of core's starting value, with
-/// which a sensor that is askew by 1.5° takes twice as long to be righted.
-const FORCE_DIRECTION: f64 = 0.03;
 
 /// What the estimator has said over a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -45,13 +40,16 @@ pub struct EstimateDoubt {
 pub(super) struct Estimating {
     robot: SharedRobot,
     feet: [Option<WholeBodyFoot<f64>>; FEET],
-    settings: Estimator<f64, FEET>,
-    state: Option<EstimatorState<f64, FEET>>,
+    /// None where it runs on a target.
+    filter: Option<Filter>,
     sensor: InertialSensor,
     pressed: [bool; FEET],
     planned: [bool; FEET],
     /// For the next tick alone.
     feet_force: Option<Vector3<f64>>,
+    /// Of the last tick, for a target, and where the robot was at the first.
+    readings: Option<(SensorReadings, StartPose<f64>)>,
+    period_s: f64,
     ticks: u64,
     tally: EstimateTally,
 }
@@ -61,27 +59,21 @@ impl Estimating {
     ///
     /// # Panics
     /// For a robot without feet on legs, which the scene's check refuses.
-    pub fn new(sensing: &Sensing, period_s: f64, robot: &SharedRobot) -> Self {
+    pub fn new(sensing: &Sensing, period_s: f64, robot: &SharedRobot, place: FilterPlace) -> Self {
         let feet = Contacts::of(robot).expect("a robot with feet on legs").feet;
-        let kinds = feet.map(|foot| {
-            foot.map(|foot| match foot.limits.patch.moments() {
-                [true, true, true] => FootKind::Sole,
-                _ => FootKind::Point,
-            })
-        });
-        let gravity = robot.tree.gravity();
-        // Floors of scenes yield.
-        let noise =
-            SensorNoise { force_direction: FORCE_DIRECTION, ..SensorNoise::yielding_ground() };
-        let settings = Estimator { noise, ..Estimator::new(period_s, gravity.norm(), kinds) };
+        let filter = match place {
+            FilterPlace::Host(scalar) => Some(Filter::new(robot, period_s, scalar)),
+            FilterPlace::Target => None,
+        };
         Self {
-            settings,
+            filter,
             feet,
-            state: None,
-            sensor: InertialSensor::new(sensing, period_s, gravity),
+            sensor: InertialSensor::new(sensing, period_s, robot.tree.gravity()),
             pressed: [false; FEET],
             planned: [true; FEET],
             feet_force: None,
+            readings: None,
+            period_s,
             ticks: 0,
             tally: EstimateTally::default(),
             robot: robot.clone(),
@@ -89,14 +81,23 @@ impl Estimating {
     }
 
     /// The ground's vertical forces on the feet (N), and which of them a planner has stand; both before a tick.
-    pub fn see_feet(&mut self, forces: impl Iterator<Item = f64>, planned: Option<&[bool]>) {
-        let least = SWITCH_SHARE * self.robot.tree.mass() * self.settings.gravity;
-        for (to, force) in self.pressed.iter_mut().zip(forces) {
-            *to = force > least;
-        }
-        for (to, is_planned) in self.planned.iter_mut().zip(planned.into_iter().flatten()) {
-            *to = *is_planned;
-        }
+    ///
+    /// # Returns
+    /// What the switches say, as forces: the robot's weight of a foot that presses.
+    pub fn see_feet(
+        &mut self,
+        forces: impl Iterator<Item = f64>,
+        planned: Option<[bool; FEET]>,
+    ) -> Vec<f64> {
+        let weight = self.robot.tree.mass() * self.robot.tree.gravity().norm();
+        let own = self.pressed.iter_mut().zip(forces);
+        let switched = own.map(|(to, force)| {
+            *to = force > SWITCH_SHARE * weight;
+            if *to { weight } else { 0.0 }
+        });
+        let switched = switched.collect();
+        self.planned = planned.unwrap_or([true; FEET]);
+        switched
     }
 
     /// The force of the ground on all feet, central body's axes, N, for the next tick.
@@ -109,51 +110,52 @@ impl Estimating {
         &self.tally
     }
 
+    /// What sensors have read at the last tick, and where the robot was at the first, for a filter on a target.
+    pub fn readings(&self) -> Option<&(SensorReadings, StartPose<f64>)> {
+        self.readings.as_ref()
+    }
+
     /// Puts the estimate in the place of the central body's pose and twist in `seen`, whose angles and rates are the
-    /// encoders'.
+    /// encoders'; of a filter on a target, what is not known.
     ///
     /// # Errors
     /// The estimator's fault.
     pub fn read(&mut self, truth: &PlantState, seen: &mut PlantState) -> Result<(), EstimateFault> {
-        let imu = self.sensor.read(truth);
-        let feet = self.foot_poses(&seen.positions[7..]);
-        let feet = std::array::from_fn(|foot| FootReading {
-            position: feet[foot].position,
-            orientation: quaternion(&feet[foot]),
-            is_pressed: self.pressed[foot],
-            is_planned: self.planned[foot],
-        });
-        let readings = Readings { imu, feet, feet_force: self.feet_force.take() };
-        let mut state = match self.state {
-            Some(state) => state,
-            None => EstimatorState::start(&self.settings, &readings, &self.start_pose(truth))?,
+        let readings = SensorReadings {
+            imu: self.sensor.read(truth),
+            pressed: self.pressed,
+            planned: self.planned,
+            feet_force: self.feet_force.take(),
         };
-        let report = self.settings.step(&mut state, &readings)?;
-        self.state = Some(state);
-        let time_s = self.ticks as f64 * self.settings.period_s;
+        let Some(mut filter) = self.filter.take() else {
+            let start = self.readings.map_or_else(|| self.start_pose(truth), |(_, start)| start);
+            self.readings = Some((readings, start));
+            let nowhere = PlantState::home(seen.joints());
+            seen.positions[..7].copy_from_slice(&nowhere.positions[..7]);
+            seen.velocities[..6].copy_from_slice(&nowhere.velocities[..6]);
+            return Ok(());
+        };
+        let filtered = filter.step(&readings, &seen.positions[7..], || self.start_pose(truth));
+        self.filter = Some(filter);
+        self.note(&filtered?, seen);
+        Ok(())
+    }
+
+    /// What a filter has made of a tick's readings.
+    pub fn note(&mut self, filtered: &Filtered, seen: &mut PlantState) {
+        let time_s = self.ticks as f64 * self.period_s;
         self.ticks += 1;
-        let anew = report.innovations.iter().flatten().filter(|found| found.is_reset).count();
-        self.tally.feet_made_anew += anew as u64;
-        if let Some(worst) = report.health.worst {
+        self.tally.feet_made_anew += filtered.made_anew;
+        if let Some(worst) = filtered.worst {
             self.tally.doubtful_ticks += 1;
             let what = || EstimateDoubt { time_s, what: worst.to_string() };
             self.tally.first.get_or_insert_with(what);
         }
-        let estimate = report.estimate;
-        seen.positions[..3].copy_from_slice(estimate.position.as_slice());
-        seen.positions[3..7].copy_from_slice(&estimate.orientation.to_array());
-        seen.velocities[..6].copy_from_slice(&estimate.velocity.to_array());
-        Ok(())
+        seen.positions[..7].copy_from_slice(&filtered.central[..7]);
+        seen.velocities[..6].copy_from_slice(&filtered.central[7..]);
     }
 
-    /// Reference points and axes of the feet in the central body's frame, by joint angles.
-    fn foot_poses(&self, angles: &[f64]) -> [Pose<f64>; FEET] {
-        let mut positions = PlantState::home(angles.len()).positions;
-        positions[7..].copy_from_slice(angles);
-        self.feet_at(&positions)
-    }
-
-    /// The same in the world, of a robot at `positions`.
+    /// Reference points and axes of the feet in the world, of a robot at `positions`.
     fn feet_at(&self, positions: &[f64]) -> [Pose<f64>; FEET] {
         // Angles of encoders are finite.
         let poses = self.robot.tree.body_poses(positions).unwrap_or_default();
@@ -187,10 +189,4 @@ impl Estimating {
             heading: logarithm(q.product(tilt.conjugate())).z,
         }
     }
-}
-
-fn quaternion(pose: &Pose<f64>) -> Quaternion<f64> {
-    let rotation = nalgebra::Rotation3::from_matrix_unchecked(pose.rotation);
-    let q = nalgebra::UnitQuaternion::from_rotation_matrix(&rotation);
-    Quaternion::from_array([q.w, q.i, q.j, q.k])
 }

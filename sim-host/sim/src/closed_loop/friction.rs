@@ -7,7 +7,7 @@ use surefoot::disturbance::{friction_compensation, seen_friction};
 /// What is known of it.
 #[derive(Clone, Debug)]
 pub(super) struct Friction<T> {
-    /// As the robot's file states it, by joint, N·m.
+    /// As the scene or the robot's file states it, by joint, N·m.
     stated: Vec<T>,
     /// How much of it is made up for.
     share: T,
@@ -16,8 +16,11 @@ pub(super) struct Friction<T> {
 impl<T: Real> Friction<T> {
     /// Of a scene that has some of it made up for.
     pub fn of(scene: &Scene) -> Option<Self> {
-        let share = scene.controller.friction_share;
-        let stated = || scene.robot().passive.iter().map(|joint| T::of(joint.friction)).collect();
+        let (share, of_all) = (scene.controller.friction_share, scene.controller.friction_nm);
+        let stated = || {
+            let robot = scene.robot();
+            robot.passive.iter().map(|joint| T::of(of_all.unwrap_or(joint.friction))).collect()
+        };
         (share > 0.0).then(|| Self { stated: stated(), share: T::of(share) })
     }
 

@@ -1,5 +1,6 @@
 //! What a scene's floor and motors can give, as its controller knows it.
 
+use crate::record::{NotedLimit, TickNote};
 use crate::robot::{LEG, Robot, SharedRobot, by_leg};
 use crate::scene::{Distribution, Feet, Scene};
 use serde::Serialize;
@@ -41,6 +42,9 @@ pub struct LimitTally {
     pub unfinished: u64,
     /// The limit that cost most at any tick.
     pub worst: Option<WorstLimit>,
+    /// Of the last tick.
+    #[serde(skip)]
+    pub last: TickNote,
     #[serde(skip)]
     active: u64,
 }
@@ -72,6 +76,7 @@ impl LimitTally {
     /// Another tick of a robot on legs of six joints.
     pub(super) fn count_tick<T: Real>(&mut self, robot: &Robot, time_s: f64, tick: &TickLimits<T>) {
         self.count(tick.is_active, tick.is_unfinished);
+        self.last = TickNote::default();
         let Some(reason) = tick.worst else { return };
         let (limit, mut joint) = named(reason.limit);
         let of_leg = robot.legs.get(reason.foot);
@@ -89,6 +94,11 @@ impl LimitTally {
 
     /// The limit that cost most at a tick.
     pub(super) fn bound(&mut self, limit: WorstLimit) {
+        let of = limit.joint.map_or_else(
+            || limit.leg.clone(),
+            |joint| format!("{}, joint {joint}", limit.leg),
+        );
+        self.last.limit = Some(NotedLimit { limit: limit.limit, of, relief: limit.relief });
         if self.worst.as_ref().is_none_or(|worst| worst.relief < limit.relief) {
             self.worst = Some(limit);
         }
@@ -182,6 +192,7 @@ impl<T: Real, const LEGS: usize> Limiting<T, LEGS> {
         let around = (&*contacts, external);
         let answer = limited_tick_under(controller, limits, state, reference, around, memory)?;
         self.tally.count_tick(&self.robot, self.time_s, &TickLimits::from(&answer.limits));
+        self.tally.last.work = Some(answer.limits.work);
         Ok(answer.command)
     }
 

@@ -13,6 +13,7 @@ mod errors;
 mod estimate;
 mod estimating;
 mod events;
+mod filter;
 pub mod firmware;
 mod friction;
 mod gait;
@@ -41,6 +42,7 @@ pub use controller::{
     bare_controller, controller, measured,
 };
 pub use estimating::{EstimateDoubt, EstimateTally};
+pub use filter::{FilterPlace, Filtered, SensorReadings};
 pub use gait::{Gait, GaitTally};
 pub use limiting::{LimitTally, WorstLimit};
 pub use outcome::{Failure, Outcome, Peak, Peaks};

@@ -7,8 +7,8 @@ use super::events::Watch;
 use super::memory::{memory, remember};
 use super::plant::plant;
 use super::{
-    Commanded, Controller, Costs, CutTorques, EstimateTally, Failure, Gait, LimitTally, Motors,
-    Outcome, Sensors,
+    Commanded, ControlFailure, Controller, Costs, CutTorques, EstimateTally, Failure, Gait,
+    LimitTally, Motors, Outcome, Sensors,
 };
 use crate::follow::Follow;
 use crate::plant::{Observation, PerPoint, Plant, PlantState};
@@ -183,9 +183,14 @@ fn advance(
     let (mut state, mut contacts) = (PlantState::home(joints), PerPoint::new());
     let mut feet = Vec::with_capacity(robot.leg_count());
     let mut touched = scene.controller.torques_from == TorquesFrom::Start;
-    let mut sensors = Sensors::of_robot(&scene.sensing, steps_per_tick as f64 * step, &robot);
+    let mut sensors = Sensors::of_robot(
+        &scene.sensing,
+        steps_per_tick as f64 * step,
+        &robot,
+        controller.filter_place(),
+    );
     let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize, joints);
-    let mut first = 0;
+    let (mut first, mut noted) = (0, 0);
     if let Some(saved) = from {
         if sensors.is_estimating() {
             return Err(not_resumed());
@@ -237,16 +242,25 @@ fn advance(
             controller.touch(time, &feet);
         }
         let seen = plant.observe().map_err(|failure| step_failure(time, failure))?;
-        controller.press(time, &seen.foot_forces);
         if sensors.is_estimating() {
             let held = matches!(scene.feet, Feet::Welded {}).then_some(f64::INFINITY);
-            sensors.see_feet(seen.foot_forces.iter().map(|force| held.unwrap_or(*force)), None);
+            let forces = seen.foot_forces.iter().map(|force| held.unwrap_or(*force));
+            let switched = sensors.see_feet(forces, controller.planned());
+            controller.press(time, &switched);
             if let Some(force) = controller.support() {
                 sensors.see_feet_force(force.into());
             }
+        } else {
+            controller.press(time, &seen.foot_forces);
         }
-        let measured = sensors.read(&state);
-        let command = command(measured, controller, touched, time)?;
+        sensors.read(&state);
+        if let Some((readings, start)) = sensors.readings() {
+            controller.sense(readings, start);
+        }
+        let command = command(sensors.seen(), controller, touched, time)?;
+        if let Some(filtered) = controller.filtered() {
+            sensors.note(&filtered);
+        }
         run.estimate = sensors.tally().cloned();
         if let Some(fault) = sensors.fault() {
             return Err(estimator_failed(time, fault));
@@ -258,8 +272,13 @@ fn advance(
         run.cut_torques = motors.cut();
         let sent = (&command.desired_wrench, motors.over_step(0));
         sample(seen, scene, &state, sent, time, run);
-        if let (true, Some(last)) = (sensors.is_estimating(), run.samples.last_mut()) {
-            last.estimate = Some(central(sensors.seen()));
+        if let Some(last) = run.samples.last_mut() {
+            last.estimate = sensors.is_estimating().then(|| central(sensors.seen()));
+            let tally = controller.limits().filter(|tally| tally.ticks > noted);
+            last.note = tally.map(|tally| {
+                noted = tally.ticks;
+                tally.last
+            });
         }
         fallen(&state, robot.fallen_height, time)?;
         if is_last {
@@ -306,15 +325,17 @@ fn command(
     active: bool,
     time: f64,
 ) -> Result<Commanded, Failure> {
-    if !active {
-        return Ok(Commanded { torques: vec![0.0; measured.joints()], desired_wrench: [0.0; 6] });
-    }
-    controller.tick(measured).map_err(|failure| Failure {
+    let failed = |failure: ControlFailure| Failure {
         kind: failure.kind(),
         time_s: time,
         place: failure.to_string(),
         advice: failure.advice().into(),
-    })
+    };
+    if !active {
+        controller.wait(measured).map_err(failed)?;
+        return Ok(Commanded { torques: vec![0.0; measured.joints()], desired_wrench: [0.0; 6] });
+    }
+    controller.tick(measured).map_err(failed)
 }
 
 fn sample(
@@ -341,6 +362,7 @@ fn sample(
         corner_forces: seen.corner_forces,
         block: seen.block,
         estimate: None,
+        note: None,
     });
 }
 

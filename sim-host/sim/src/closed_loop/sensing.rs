@@ -4,12 +4,13 @@ use super::askew::Askew;
 use super::encoders::Encoders;
 use super::estimate::Estimate;
 use super::estimating::{EstimateTally, Estimating};
+use super::filter::{FilterPlace, Filtered, SensorReadings};
 use crate::plant::PlantState;
 use crate::record::EncoderMemory;
-use crate::robot::SharedRobot;
+use crate::robot::{MOST_LEGS, SharedRobot};
 use crate::scene::{Sensing, StateSource};
 use nalgebra::Vector3;
-use surefoot::estimate::EstimateFault;
+use surefoot::estimate::{EstimateFault, StartPose};
 
 /// The sensors of a robot, read once a tick. Ideal ones read the state as it is.
 #[derive(Clone, Debug)]
@@ -44,13 +45,18 @@ impl Sensors {
         }
     }
 
-    /// The same of a robot, with its state estimator where the scene has one.
+    /// The same of a robot, with its state estimator, in its place, where the scene has one.
     ///
     /// # Panics
     /// For a scene that is not checked.
-    pub fn of_robot(sensing: &Sensing, period_s: f64, robot: &SharedRobot) -> Self {
+    pub fn of_robot(
+        sensing: &Sensing,
+        period_s: f64,
+        robot: &SharedRobot,
+        place: FilterPlace,
+    ) -> Self {
         let is_estimated = sensing.state == StateSource::Estimate;
-        let estimating = || Box::new(Estimating::new(sensing, period_s, robot));
+        let estimating = || Box::new(Estimating::new(sensing, period_s, robot, place));
         Self {
             estimating: is_estimated.then(estimating),
             ..Self::new(sensing, period_s, &robot.columns)
@@ -80,16 +86,36 @@ impl Sensors {
         &self.seen
     }
 
+    /// What they have read at the last tick, and where the robot was at the first, for an estimator on a target.
+    pub fn readings(&self) -> Option<&(SensorReadings, StartPose<f64>)> {
+        self.estimating.as_ref()?.readings()
+    }
+
+    /// What an estimator on a target has made of that.
+    pub fn note(&mut self, filtered: &Filtered) {
+        if let Some(estimating) = &mut self.estimating {
+            estimating.note(filtered, &mut self.seen);
+        }
+    }
+
     /// Whether a state estimator makes of the readings what controllers see.
     pub fn is_estimating(&self) -> bool {
         self.estimating.is_some()
     }
 
     /// Tells switches of the ground's vertical forces on the feet (N), and the estimator which feet a planner has
-    /// stand (all of them, or those of before, unless said), before a tick. Of no use to others.
-    pub fn see_feet(&mut self, forces: impl Iterator<Item = f64>, planned: Option<&[bool]>) {
-        if let Some(estimating) = &mut self.estimating {
-            estimating.see_feet(forces, planned);
+    /// stand (all of them unless said), before a tick. Of no use to others.
+    ///
+    /// # Returns
+    /// What the feet's switches say, as forces: the robot's weight of a foot that presses.
+    pub fn see_feet(
+        &mut self,
+        forces: impl Iterator<Item = f64>,
+        planned: Option<[bool; MOST_LEGS]>,
+    ) -> Vec<f64> {
+        match &mut self.estimating {
+            Some(estimating) => estimating.see_feet(forces, planned),
+            None => Vec::new(),
         }
     }
 

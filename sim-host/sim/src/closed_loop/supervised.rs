@@ -1,8 +1,9 @@
 //! The host's controller under the core's supervisor: the same computation as on the target.
 
 use super::controller::{
-    Commanded, ControlFailure, Controller, HostController, commanded, measured,
+    Commanded, ControlFailure, Controller, HostController, Scalar, commanded, measured,
 };
+use super::filter::FilterPlace;
 use super::limiting::LimitTally;
 use crate::plant::PlantState;
 use crate::record::{self, MeasuredBefore};
@@ -11,6 +12,7 @@ use crate::scene::{Scene, StateSource};
 use nalgebra::Vector3;
 use surefoot::Real;
 use surefoot::balance::{Before, SafetyLimits, StopReason, Supervisor, SupervisorMemory};
+use surefoot::estimate::{ANGULAR_VELOCITY_STEPS, VELOCITY_STEPS};
 use surefoot::spatial::Wrench;
 
 /// A controller and its supervisor, armed.
@@ -40,6 +42,10 @@ impl<T: Real, const LEGS: usize> SupervisedController<T, LEGS> {
 }
 
 impl<T: Real, const LEGS: usize> Controller for SupervisedController<T, LEGS> {
+    fn filter_place(&self) -> FilterPlace {
+        FilterPlace::Host(Scalar::of::<T>())
+    }
+
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         self.inner.look(state);
         let reference = self.inner.reference();
@@ -95,12 +101,6 @@ impl<T: Real, const LEGS: usize> Controller for SupervisedController<T, LEGS> {
     }
 }
 
-/// A state estimator moves position and orientation by what it finds, beside what velocities do: by 0.7 mm and 0.9 mrad a
-/// tick as feet rock on ground that yields, which are steps of 0.7 m/s and 0.9 rad/s. What it finds itself of
-/// readings that cannot be is its own to say.
-const ESTIMATED_VELOCITY_STEPS: f64 = 20.0;
-const ESTIMATED_ANGULAR_VELOCITY_STEPS: f64 = 4.0;
-
 /// What a supervisor allows of the state that a scene's controller sees.
 pub(super) fn of_state<T: Real, const LEGS: usize>(
     mut limits: SafetyLimits<T, LEGS>,
@@ -108,8 +108,8 @@ pub(super) fn of_state<T: Real, const LEGS: usize>(
 ) -> SafetyLimits<T, LEGS> {
     if scene.sensing.state == StateSource::Estimate {
         let thresholds = &mut limits.thresholds;
-        thresholds.velocity_step *= T::of(ESTIMATED_VELOCITY_STEPS);
-        thresholds.angular_velocity_step *= T::of(ESTIMATED_ANGULAR_VELOCITY_STEPS);
+        thresholds.velocity_step *= T::of(f64::from(VELOCITY_STEPS));
+        thresholds.angular_velocity_step *= T::of(f64::from(ANGULAR_VELOCITY_STEPS));
     }
     limits
 }

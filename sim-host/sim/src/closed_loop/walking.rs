@@ -1,14 +1,15 @@
 //! A robot that walks: core's planner over its whole-body controller, from commands of a scene.
 
-use super::controller::{Commanded, ControlFailure, Controller, measured};
+use super::controller::{Commanded, ControlFailure, Controller, Scalar, measured};
+use super::filter::FilterPlace;
 use super::gait::GaitTally;
 use super::limiting::LimitTally;
-use super::supervised::{recorded, remembered};
+use super::supervised::{of_state, recorded, remembered};
 use super::whole_body::{WholeBodyHost, padded};
 use super::whole_body_settings::FEET;
 use crate::plant::PlantState;
 use crate::record;
-use crate::robot::{LEG, Limits, WalkerShape, with_tree};
+use crate::robot::{LEG, Limits, MOST_LEGS, WalkerShape, with_tree};
 use crate::scene::{GaitName, Scene, WalkCommand};
 use nalgebra::{Vector2, Vector3};
 use surefoot::Real;
@@ -19,7 +20,8 @@ use surefoot::balance::{
 use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, Wrench};
 use surefoot::walk::{
-    self, JumpOrder, LANDING_RATE, Leeway, PlaneMotion, Planner, StandingRobot, Stature, WalkMemory,
+    self, JumpOrder, LANDING_RATE, Leeway, Phase, PlaneMotion, Planner, StandingRobot, Stature,
+    WalkMemory,
 };
 
 /// What a target must know of a robot that walks.
@@ -99,6 +101,8 @@ struct Walker<T, const N: usize, const NQ: usize, const NV: usize> {
     period: T,
     /// Height of the central body at the start, for the supervisor.
     height: T,
+    /// Of the lower foot at the start, and at the last tick, m.
+    ground: [T; 2],
 }
 
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usize>
@@ -115,7 +119,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
     ) -> Self {
         let period = T::of(1.0 / scene.controller.rate_hz);
         let supervisor = limits.map(|limits| {
-            let mut supervisor = Supervisor::new(limits, period)
+            let mut supervisor = Supervisor::new(of_state(limits, scene), period)
                 .expect("limits of the robot, period of a checked scene");
             supervisor.arm();
             supervisor
@@ -146,6 +150,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
         // Starting values belong to the height of the centre of mass here.
         body.settings = body.settings.for_walks(stature.height, robot.gravity, feet);
         let rotation = standing.central_rotation;
+        let ground = lower_foot(&stature, &standing);
         Self {
             planner: Planner::new(stature),
             memory: WalkMemory::standing(rotation.m21.atan2(rotation.m11)),
@@ -153,6 +158,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
             forces: [T::zero(); FEET],
             period,
             height: T::of(start.positions[2]),
+            ground: [ground; 2],
             body,
         }
     }
@@ -167,22 +173,45 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
         state: &WholeBodyState<T, NQ, NV>,
     ) -> Result<WholeBodyCommand<T, FEET, NV>, Fault> {
         let asked = self.asked();
-        let Self { body, planner, memory, forces, period, .. } = self;
-        let WholeBodyHost { tree, model, settings, memory: rows, .. } = body;
+        let Self { body, planner, memory, forces, period, ground, .. } = self;
+        let WholeBodyHost { tree, model, settings, memory: rows, friction, .. } = body;
         let controller = WholeBodyController { tree, robot: model, settings };
         let observed = observe(&controller, state)?;
         let motion = observed.motion(&controller)?;
+        ground[1] = lower_foot(&planner.stature, &motion);
         let task = planner.plan(memory, &motion, forces, &asked, *period)?;
-        let command = whole_body_motion_tick(&controller, &observed, &task.motion, rows)?;
+        let mut command = whole_body_motion_tick(&controller, &observed, &task.motion, rows)?;
+        if let Some(friction) = friction {
+            let wanted = Some(&command.accelerations[6..]);
+            friction.add(&mut command.torques[6..], &state.velocities[6..], wanted);
+        }
         body.count(&command.limits);
+        body.tally.last.capture_point = Some(task.capture_point.map(Real::to_f64).into());
         Ok(command)
     }
 
-    /// Where the supervisor is to expect the robot: here, at its height, or as far below as what is planned takes it.
+    /// Where the supervisor is to expect the robot: here, as high above its lower foot as at the start, or as far below
+    /// as what is planned takes it.
     fn reference(&self, state: &PlantState, leeway: Leeway<T>) -> Reference<T> {
         let [x, y] = [state.positions[0], state.positions[1]].map(T::of);
-        Reference::at_rest(Vector3::new(x, y, self.height - leeway.sinks), Quaternion::identity())
+        let [first, last] = self.ground;
+        let height = self.height + (last - first) - leeway.sinks;
+        Reference::at_rest(Vector3::new(x, y, height), Quaternion::identity())
     }
+
+    /// Which feet the plan has on the ground.
+    fn planned(&self) -> [bool; MOST_LEGS] {
+        match &self.memory.phase {
+            Phase::Single { swing, .. } => swing.each_ref().map(Option::is_none),
+            _ => [true; MOST_LEGS],
+        }
+    }
+}
+
+/// Height of the lower of the feet that step, m.
+fn lower_foot<T: Real>(stature: &Stature<T, FEET>, seen: &ObservedMotion<T, FEET>) -> T {
+    let own = stature.feet.iter().zip(&seen.feet).filter(|(foot, _)| foot.is_some());
+    own.map(|(_, foot)| foot.position.z).reduce(|a, b| a.min(b)).unwrap_or(T::zero())
 }
 
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T, N, NQ, NV> {
@@ -202,6 +231,10 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usize> Controller
     for WalkingHost<T, N, NQ, NV, ROWS>
 {
+    fn filter_place(&self) -> FilterPlace {
+        FilterPlace::Host(Scalar::of::<T>())
+    }
+
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let Self { walker, supervisor } = self;
         let Some(supervisor) = supervisor else {
@@ -234,6 +267,10 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
         for (to, force) in self.walker.forces.iter_mut().zip(normal_forces) {
             *to = T::of(*force);
         }
+    }
+
+    fn planned(&self) -> Option<[bool; MOST_LEGS]> {
+        Some(self.walker.planned())
     }
 
     fn gait(&self) -> Option<GaitTally> {

@@ -1,7 +1,8 @@
 //! The whole-body controller on the host: of robots whose legs have not six joints each, or that move other limbs.
 
-use super::controller::{Commanded, ControlFailure, Controller, measured};
+use super::controller::{Commanded, ControlFailure, Controller, Scalar, measured};
 use super::disturbance::{Observe, observer};
+use super::filter::FilterPlace;
 use super::friction::Friction;
 use super::limiting::LimitTally;
 use super::supervised::{of_state, recorded, remembered};
@@ -33,7 +34,7 @@ pub(super) struct WholeBodyHost<T, const N: usize, const NQ: usize, const NV: us
     pub(super) time_s: f64,
     pub(super) tally: LimitTally,
     observer: Option<Box<dyn Observe<T>>>,
-    friction: Option<Friction<T>>,
+    pub(super) friction: Option<Friction<T>>,
 }
 
 /// The same with its supervisor, which takes joints in rows of six.
@@ -106,6 +107,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
     /// What limits did in a tick.
     pub(super) fn count(&mut self, report: &WholeBodyReport<T, FEET>) {
         self.tally.count_tick(&self.robot, self.time_s, &TickLimits::from(report));
+        self.tally.last.work = Some(report.work);
     }
 
     /// Another tick's state, as the observer takes it.
@@ -145,6 +147,10 @@ pub(super) fn padded<const M: usize, T: Real>(numbers: &[f64]) -> [T; M] {
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Controller
     for WholeBodyHost<T, N, NQ, NV>
 {
+    fn filter_place(&self) -> FilterPlace {
+        FilterPlace::Host(Scalar::of::<T>())
+    }
+
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         self.look(state);
         let state = WholeBodyState {
@@ -215,6 +221,10 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usize> Controller
     for SupervisedWholeBody<T, N, NQ, NV, ROWS>
 {
+    fn filter_place(&self) -> FilterPlace {
+        FilterPlace::Host(Scalar::of::<T>())
+    }
+
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let Self { inner, supervisor } = self;
         inner.look(state);

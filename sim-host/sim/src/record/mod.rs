@@ -6,6 +6,7 @@ mod event;
 mod foxglove;
 mod identity;
 mod mechanism_record;
+mod note;
 mod recorded;
 mod robot_record;
 mod saved;
@@ -17,6 +18,7 @@ pub use event::{Event, EventKind};
 pub use foxglove::{RecordFailure, write_mcap};
 pub use identity::MotionIdentity;
 pub use mechanism_record::MechanismRecord;
+pub use note::{NotedLimit, TickNote, center_of_pressure, torque_share};
 pub use recorded::{Details, JointReading, Record};
 pub use robot_record::RobotRecord;
 pub use saved::{
@@ -57,6 +59,8 @@ pub struct Sample {
     pub block: Option<BlockSample>,
     /// Position, quaternion and body twist of the central body as the state estimator has them, if there is one.
     pub estimate: Option<[f64; 13]>,
+    /// What a controller within limits has said of this tick.
+    pub note: Option<TickNote>,
 }
 
 impl Sample {

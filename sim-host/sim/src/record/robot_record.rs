@@ -1,6 +1,6 @@
 //! What a run of a robot has recorded.
 
-use super::Sample;
+use super::{Sample, note};
 use super::recorded::{Details, JointReading, Record};
 use crate::picture::{Moment, Shown, Tracking};
 use crate::robot::{Robot, SharedRobot};
@@ -44,12 +44,22 @@ pub struct RobotRecord<'a> {
     shown: Shown,
     robot: SharedRobot,
     samples: &'a [Sample],
+    /// Whether its controller knows limits, and whether it walks.
+    is_limited: bool,
+    walks: bool,
 }
 
 impl<'a> RobotRecord<'a> {
     /// Of a scene's run.
     pub fn new(scene: &Scene, samples: &'a [Sample]) -> Self {
-        Self { shown: Shown::of(scene), robot: scene.robot(), samples }
+        let notes = || samples.iter().filter_map(|sample| sample.note.as_ref());
+        Self {
+            shown: Shown::of(scene),
+            robot: scene.robot(),
+            samples,
+            is_limited: notes().next().is_some(),
+            walks: notes().any(|note| note.capture_point.is_some()),
+        }
     }
 }
 
@@ -68,6 +78,11 @@ impl Record for RobotRecord<'_> {
         if self.samples.iter().any(|sample| sample.estimate.is_some()) {
             names.extend(ESTIMATE.iter().map(|name| format!("estimate_{name}")));
         }
+        if self.is_limited {
+            names.extend(note::LIMITS.iter().chain(&note::PRESSURE).map(|name| (*name).to_owned()));
+            let walks = note::CAPTURE.iter().filter(|_| self.walks);
+            names.extend(walks.map(|name| (*name).to_owned()));
+        }
         names
     }
 
@@ -75,6 +90,9 @@ impl Record for RobotRecord<'_> {
         let sample = &self.samples[sample];
         let mut fields = row(&self.robot, sample);
         fields.extend(sample.estimate.iter().flatten().map(f64::to_string));
+        if self.is_limited {
+            fields.extend(note::row(&self.robot, sample, self.walks));
+        }
         fields
     }
 
@@ -227,7 +245,7 @@ fn schema(robot: &Robot) -> Value {
 mod tests {
     use super::*;
     use crate::plant::BlockSample;
-    use crate::record::write_csv;
+    use crate::record::{NotedLimit, TickNote, write_csv};
     use crate::robot::biped;
     use crate::scene::Outline;
     use crate::scene::load;
@@ -249,12 +267,23 @@ mod tests {
             corner_forces: Some(vec![vec![[9.0, 10.0, 11.0]; 4]; 2]),
             block: Some(BlockSample { pose: [12.0; 7], force: [13.0; 3] }),
             estimate: Some([14.0; 13]),
+            note: Some(TickNote {
+                limit: Some(NotedLimit { limit: "slip", of: "left leg".to_owned(), relief: 15.0 }),
+                work: Some(16),
+                capture_point: Some([17.0, 18.0]),
+            }),
         };
         let robot = biped(Outline::A);
         let shown = Shown::of(&load("experiment-1").expect("a built-in scene"));
         let mut bytes = Vec::new();
         let samples = std::slice::from_ref(&sample);
-        let record = RobotRecord { shown: shown.clone(), robot: robot.clone(), samples };
+        let record = RobotRecord {
+            shown: shown.clone(),
+            robot: robot.clone(),
+            samples,
+            is_limited: true,
+            walks: true,
+        };
         write_csv(&record, &mut bytes).expect("a vector takes all");
         let text = String::from_utf8(bytes).expect("text");
         let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
@@ -269,6 +298,12 @@ mod tests {
         assert_eq!(lines[1][column("block_q_z")], "12");
         assert_eq!(lines[1][column("block_f_x_n")], "13");
         assert_eq!(lines[1][column("estimate_w_z_radps")], "14");
+        assert_eq!(lines[1][column("limit")], "slip");
+        assert_eq!(lines[1][column("limit_of")], "left leg");
+        assert_eq!(lines[1][column("solver_work")], "16");
+        // 3 N·m of the 100 of the weakest motor.
+        assert_eq!(lines[1][column("torque_share")], (3.0_f64 / 100.0).to_string());
+        assert_eq!(lines[1][column("capture_y_m")], "18");
         sample.contacts = None;
         sample.corner_forces = None;
         sample.block = None;

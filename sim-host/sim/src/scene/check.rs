@@ -114,10 +114,21 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
         let expected = "a share of 0 to 1";
         return Err(wrong(scene, "controller.friction_share", controller.friction_share, expected));
     }
+    if let Some(friction) = controller.friction_nm {
+        if !(friction > 0.0 && friction <= 1e5) {
+            let expected = "a torque above zero, at most 1e5 N·m";
+            return Err(wrong(scene, "controller.friction_nm", friction, expected));
+        }
+        if controller.friction_share == 0.0 {
+            let expected = "none, as `friction_share` is not given";
+            return Err(wrong(scene, "controller.friction_nm", friction, expected));
+        }
+    }
     if controller.friction_share > 0.0
+        && controller.friction_nm.is_none()
         && scene.robot().passive.iter().all(|joint| joint.friction == 0.0)
     {
-        let expected = "none, as the robot's file states no friction of its joints";
+        let expected = "none, as neither the robot's file nor `friction_nm` states friction of its joints";
         return Err(wrong(scene, "controller.friction_share", controller.friction_share, expected));
     }
     if controller.distribution == Distribution::Limited && matches!(scene.feet, Feet::Welded {}) {

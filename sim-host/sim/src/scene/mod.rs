@@ -261,6 +261,9 @@ pub struct ControllerSettings {
     /// The share of the joints' dry friction, as the robot's file states it, that torques make up for.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub friction_share: f64,
+    /// Dry friction of every joint as the controller knows it, in place of the robot file's, N·m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction_nm: Option<f64>,
     /// When torques set in.
     pub torques_from: TorquesFrom,
 }

@@ -4,6 +4,7 @@
 use super::super::WholeBodyLimit;
 use super::super::leg_inverse::DIRECTIONS;
 use super::super::program::{TORQUES, torque_row, worst};
+use super::super::robot::WHOLE_BODY_FEET;
 use super::dynamics::{MotionDynamics, Unknowns};
 use super::objective::Objective;
 use crate::Real;
@@ -56,7 +57,8 @@ impl<T: Real, const FEET: usize, const NV: usize> Program<T> for MotionProgram<'
     type Factor = ();
 
     const COST: ProgramCost = {
-        let (feet, joints) = (FEET as Work, NV.saturating_sub(6) as Work);
+        // As if all places had feet: a robot's work does not depend on how many it is given room for.
+        let (feet, joints) = (WHOLE_BODY_FEET as Work, NV.saturating_sub(6) as Work);
         ProgramCost {
             factor: 0,
             response: 36 + 84 * feet,

@@ -1,6 +1,8 @@
 //! The controller on a target, in place of the host's.
 
+use super::sensing::{self, Sensing};
 use super::{LinkError, Target, Transport, image};
+use crate::closed_loop::filter::{FilterPlace, Filtered, SensorReadings};
 use crate::closed_loop::gait::GaitTally;
 use crate::closed_loop::limiting::{Given, LimitTally};
 use crate::closed_loop::walking::{self, WalkStart};
@@ -8,8 +10,9 @@ use crate::closed_loop::whole_body_settings::{Standing, firmware_id};
 use crate::closed_loop::{Commanded, ControlFailure, Controller, Costs};
 use crate::plant::PlantState;
 use crate::robot::{LEG, Robot, SharedRobot, with_tree};
-use crate::scene::{Scene, WalkCommand, Workspace};
+use crate::scene::{Disturbance, Scene, StateSource, WalkCommand, Workspace};
 use surefoot::balance::{Ground, JointLimits, Sole, StopReason, Thresholds};
+use surefoot::estimate::{ANGULAR_VELOCITY_STEPS, StartPose, VELOCITY_STEPS};
 use surefoot_link::{
     Clock, Counter, Joints, MOST_FEET, Pacing, Sensors, SetPoint, Settings, StanceSettings,
     ToTarget, Torques, WalkOrder, WalkerSettings, WrenchSettings,
@@ -32,6 +35,8 @@ pub struct FirmwareController<const JOINTS: usize> {
     limited: Vec<bool>,
     /// Of a robot that walks.
     walk: Option<Walk>,
+    /// Of one whose state the target estimates.
+    sensing: Option<Sensing>,
 }
 
 /// What a robot that walks is asked.
@@ -102,14 +107,20 @@ impl<const JOINTS: usize> FirmwareController<JOINTS> {
             pose.position[2] = height;
         }
         target.order("set point", &ToTarget::SetPoint(pose))?;
-        target.order("arm", &ToTarget::Arm(wanted))?;
+        if scene.controller.disturbance == Disturbance::Observed {
+            target.order("observe", &ToTarget::Observe(sensing::observer(scene)))?;
+        }
+        let sensing = (scene.sensing.state == StateSource::Estimate).then(|| Sensing::of(scene));
+        if sensing.is_none() {
+            target.order("arm", &ToTarget::Arm(wanted))?;
+        }
         let (costs, stopped) = (Vec::new(), None);
         let tally = is_limited.then(LimitTally::default);
         let (time_s, contacts, limited) = (0.0, u8::MAX, Vec::new());
         let (commands, told) = (scene.walk.clone(), None);
         let forces = Joints::new([0.0; MOST_FEET], robot.feet.len());
         let walk = walks.then_some(Walk { commands, told, forces, steps: 0 });
-        Ok(Self { target, robot, costs, stopped, time_s, contacts, tally, limited, walk })
+        Ok(Self { target, robot, costs, stopped, time_s, contacts, tally, limited, walk, sensing })
     }
 
     /// What each tick has cost, in the target's unit.
@@ -141,7 +152,17 @@ impl<const JOINTS: usize> FirmwareController<JOINTS> {
             }
             sensors.forces = walk.forces;
         }
-        let torques = self.target.tick(&sensors)?;
+        let torques = match &mut self.sensing {
+            None => self.target.tick(&sensors)?,
+            Some(sensing) => {
+                if !std::mem::replace(&mut sensing.is_armed, true) {
+                    sensing.begin(&mut self.target)?;
+                    let wanted = self.target.identity().robot;
+                    self.target.order("arm", &ToTarget::Arm(wanted))?;
+                }
+                sensing.tick(&mut self.target, &sensors)?
+            }
+        };
         if let Some(walk) = &mut self.walk {
             walk.steps = torques.steps;
         }
@@ -173,7 +194,11 @@ pub fn sensors<const JOINTS: usize>(state: &PlantState) -> Sensors<JOINTS> {
 /// A scene's settings in single precision, with its robot's limits.
 pub fn settings<const JOINTS: usize>(scene: &Scene) -> Settings<JOINTS> {
     let settings = &scene.controller;
-    let (limits, thresholds) = single_precision(scene);
+    let (limits, mut thresholds) = single_precision(scene);
+    if scene.sensing.state == StateSource::Estimate && scene.walk.is_empty() {
+        thresholds.velocity_step *= VELOCITY_STEPS;
+        thresholds.angular_velocity_step *= ANGULAR_VELOCITY_STEPS;
+    }
     let none = JointLimits { torque: f32::NAN, angle: [f32::NAN; 2], rate: f32::NAN };
     Settings {
         period: (1.0 / settings.rate_hz) as f32,
@@ -277,6 +302,29 @@ pub fn set_point(scene: &Scene) -> SetPoint {
 }
 
 impl<const JOINTS: usize> Controller for FirmwareController<JOINTS> {
+    fn filter_place(&self) -> FilterPlace {
+        FilterPlace::Target
+    }
+
+    fn sense(&mut self, readings: &SensorReadings, start: &StartPose<f64>) {
+        if let Some(sensing) = &mut self.sensing {
+            sensing.read(readings, start);
+        }
+    }
+
+    fn wait(&mut self, state: &PlantState) -> Result<(), ControlFailure> {
+        if let Some(sensing) = &mut self.sensing {
+            let sensors = Sensors { contacts: self.contacts, ..sensors(state) };
+            sensing.begin(&mut self.target)?;
+            sensing.tick(&mut self.target, &sensors)?;
+        }
+        Ok(())
+    }
+
+    fn filtered(&self) -> Option<Filtered> {
+        self.sensing.as_ref()?.filtered()
+    }
+
     fn stopped(&self) -> Option<StopReason> {
         self.stopped
     }

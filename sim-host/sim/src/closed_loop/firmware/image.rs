@@ -2,7 +2,7 @@
 
 use super::LinkError;
 use crate::robot::Robot;
-use crate::scene::Scene;
+use crate::scene::{Disturbance, Scene, StateSource};
 use std::path::{Path, PathBuf};
 
 /// Folder of all images.
@@ -15,12 +15,19 @@ const IMAGES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../target/firmware
 pub fn image_for(scene: &Scene) -> Result<PathBuf, LinkError> {
     let robot = scene.robot();
     let walks = if scene.walk.is_empty() { "" } else { "-walks" };
-    let folder = folder_name(&robot) + walks;
+    let estimates = if estimates(scene) { "-estimates" } else { "" };
+    let folder = folder_name(&robot) + walks + estimates;
     let image = Path::new(IMAGES).join(folder).join("emulation.elf");
     if image.exists() {
         return Ok(image);
     }
     Err(LinkError::NoImage { robot: robot.name.clone(), image, command: command(scene) })
+}
+
+/// Whether a scene takes firmware that estimates the state and observes disturbances.
+pub(super) fn estimates(scene: &Scene) -> bool {
+    scene.sensing.state == StateSource::Estimate
+        || scene.controller.disturbance == Disturbance::Observed
 }
 
 /// A robot's folder of images.
@@ -37,15 +44,16 @@ pub fn folder_name(robot: &Robot) -> String {
 /// What builds a scene's robot's images.
 pub(super) fn command(scene: &Scene) -> String {
     let walks = if scene.walk.is_empty() { "" } else { " --walks" };
+    let options = walks.to_owned() + if estimates(scene) { " --estimates" } else { "" };
     let Some(file) = scene.robot.as_ref().and_then(|entry| entry.path()) else {
-        return format!("cargo xtask firmware{walks}");
+        return format!("cargo xtask firmware{options}");
     };
     if file.extension().is_some_and(|extension| extension == "toml") {
         let source = file.with_file_name("robot.rs");
-        return format!("cargo xtask firmware{walks} --robot {}", source.display());
+        return format!("cargo xtask firmware{options} --robot {}", source.display());
     }
     format!(
-        "surefoot import {} --out DIR` and `cargo xtask firmware{walks} --robot DIR/robot.rs",
+        "surefoot import {} --out DIR` and `cargo xtask firmware{options} --robot DIR/robot.rs",
         file.display()
     )
 }

@@ -9,6 +9,7 @@ mod controller;
 mod emulator;
 mod image;
 mod robot_module;
+mod sensing;
 mod serial;
 mod target;
 mod transport;

@@ -6,8 +6,8 @@ use std::hash::{BuildHasher, Hasher, RandomState};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use surefoot_link::{
-    Acknowledged, Clock, FromTarget, Identity, Injection, MOST_FRAME, Receiver, Rejected, RobotId,
-    Sender, Sensors, Stages, Status, ToTarget, Torques,
+    Acknowledged, Clock, FromTarget, Identity, Injection, MOST_FRAME, Readings, Receiver, Rejected,
+    RobotId, Sender, Sensors, Stages, Status, ToTarget, Torques,
 };
 
 /// How long a target may take for an answer. An emulated one on a busy machine takes milliseconds.
@@ -152,6 +152,19 @@ impl<const JOINTS: usize> Target<JOINTS> {
     /// A [`LinkError`].
     pub fn tick(&mut self, sensors: &Sensors<JOINTS>) -> Result<Torques<JOINTS>, LinkError> {
         self.send(&self.measurement(sensors))?;
+        self.torques()
+    }
+
+    /// The same of what sensors read.
+    ///
+    /// # Errors
+    /// A [`LinkError`].
+    pub fn tick_by_readings(
+        &mut self,
+        readings: &Readings<JOINTS>,
+    ) -> Result<Torques<JOINTS>, LinkError> {
+        let taken_us = self.begin.elapsed().as_micros() as u32;
+        self.send(&ToTarget::Readings { taken_us, readings: *readings })?;
         self.torques()
     }
 
