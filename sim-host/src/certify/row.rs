@@ -4,12 +4,14 @@ use super::margins::{MARGINS, Margins};
 use super::study::{Study, StudyError};
 use super::vary::Require;
 use crate::stability::loop_limits::{Criterion, Ending, fingerprint};
+use serde::{Deserialize, Serialize};
 use surefoot_sim::closed_loop::{self, Controller, Run, Scalar};
 use surefoot_sim::record::Sample;
 use surefoot_sim::scene::Scene;
 
 /// A run of a sample.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Row {
     /// The sample's number.
     pub sample: u64,

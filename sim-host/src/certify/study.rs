@@ -76,6 +76,20 @@ impl Definition {
     /// # Errors
     /// [`StudyError`] for what cannot be read.
     pub fn read(scene: &str, vary: &Path, seed: u64, sampling: Sampling) -> Result<Self, StudyError> {
+        let text = read(vary)?;
+        Self::new(scene, (&vary.display().to_string(), &text), seed, sampling)
+    }
+
+    /// The same with the name and the text of what varies.
+    ///
+    /// # Errors
+    /// [`StudyError`] for a scene that cannot be read.
+    pub fn new(
+        scene: &str,
+        (vary, vary_text): (&str, &str),
+        seed: u64,
+        sampling: Sampling,
+    ) -> Result<Self, StudyError> {
         let built_in = BUILT_IN.iter().find(|built_in| built_in.name == scene);
         let path = Path::new(scene);
         let (name, text) = match built_in {
@@ -92,7 +106,7 @@ impl Definition {
         let mut document = table(&name, &text)?;
         absolute(&mut document, path.parent());
         let scene_text = document.to_string();
-        let (vary, vary_text) = (vary.display().to_string(), read(vary)?);
+        let (vary, vary_text) = (vary.to_owned(), vary_text.to_owned());
         Ok(Self { scene: name, scene_text, vary, vary_text, seed, sampling })
     }
 }
@@ -137,8 +151,7 @@ impl Study {
                 return Err(SceneError::NotARobot { name: scene.name }.into());
             }
         };
-        let document = table(scene, scene_text)?;
-        let vary = Vary::parse(file, vary_text, &document)?;
+        let vary = Vary::parse(file, vary_text, &table(scene, scene_text)?)?;
         let mut coordinates = Vec::new();
         for (parameter, varied) in vary.parameters.iter().enumerate() {
             for (which, suffix) in varied.distribution.coordinates().iter().enumerate() {
@@ -147,13 +160,19 @@ impl Study {
                 coordinates.push(Coordinate { name, parameter, which });
             }
         }
-        let study = Self { document, vary, coordinates, base, definition };
+        let mut study = Self { document: vary.scene.clone(), vary, coordinates, base, definition };
+        let of_all = study.scene_of(&study.document);
+        *study.base = of_all.map_err(|message| study.refused(format!("scene: {message}")))?;
         study.check()?;
         Ok(study)
     }
 
+    fn refused(&self, message: String) -> VaryError {
+        VaryError { file: self.definition.vary.clone(), line: None, message }
+    }
+
     fn check(&self) -> Result<(), VaryError> {
-        let refuse = |message| VaryError { file: self.definition.vary.clone(), line: None, message };
+        let refuse = |message| self.refused(message);
         if self.coordinates.is_empty() || self.coordinates.len() > MOST_COORDINATES {
             let count = self.coordinates.len();
             let expected = format!("expected 1 to {MOST_COORDINATES}, seeds not counted");
@@ -204,7 +223,7 @@ impl Study {
         &self.coordinates
     }
 
-    /// The scene as it is, with nothing varied.
+    /// The scene with nothing varied.
     pub fn base(&self) -> &Scene {
         &self.base
     }

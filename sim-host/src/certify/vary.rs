@@ -3,6 +3,9 @@
 //! ```toml
 //! require = "upright"                    # or "settled": at the set point at the end
 //!
+//! [scene]                                # fields that are otherwise than in the scene, but do not vary
+//! "duration_s" = 2.0
+//!
 //! [vary."block.mass_kg"]                 # any field of the scene, by its path
 //! uniform = [1.0, 3.0]
 //!
@@ -23,6 +26,8 @@ use toml::{Table, Value};
 pub struct Vary {
     /// What a run must do so as not to fail.
     pub require: Require,
+    /// The scene's document with what is otherwise in all samples.
+    pub scene: Table,
     /// What varies, in the order of the names.
     pub parameters: Vec<Parameter>,
 }
@@ -106,6 +111,17 @@ impl Vary {
         let document = DeTable::parse(text)
             .map_err(|error| at(error.span().map(|s| s.start), error.message().to_owned()))?;
         let mut require = Require::default();
+        let mut scene = scene.clone();
+        if let Some((key, value)) = document.get_ref().get_key_value("scene") {
+            let wrong = |message| at(Some(key.span().start), format!("scene: {message}"));
+            let fixed = Table::deserialize(ValueDeserializer::from(value.clone()))
+                .map_err(|error| wrong(error.message().to_owned()))?;
+            for (path, value) in fixed {
+                let path = FieldPath::parse(&path);
+                path.and_then(|path| path.set(&mut scene, value))
+                    .map_err(|error| wrong(error.to_string()))?;
+            }
+        }
         let mut parameters = Vec::new();
         for (key, value) in document.get_ref() {
             let start = Some(key.span().start);
@@ -115,6 +131,7 @@ impl Vary {
                     require = Require::deserialize(deserializer)
                         .map_err(|error| at(start, format!("require: {}", error.message())))?;
                 }
+                ("scene", DeValue::Table(_)) => {}
                 ("vary", DeValue::Table(entries)) => {
                     for (name, entry) in entries {
                         let start = Some(name.span().start);
@@ -122,11 +139,11 @@ impl Vary {
                         let wrong = |message: String| at(start, format!("vary.\"{name}\": {message}"));
                         let entry = Entry::deserialize(ValueDeserializer::from(entry.clone()))
                             .map_err(|error| wrong(error.message().to_owned()))?;
-                        parameters.push(entry.parameter(name, scene).map_err(wrong)?);
+                        parameters.push(entry.parameter(name, &scene).map_err(wrong)?);
                     }
                 }
                 (other, _) => {
-                    let expected = "expected `require` and tables [vary.\"FIELD\"]";
+                    let expected = "expected `require`, [scene] and tables [vary.\"FIELD\"]";
                     return Err(at(start, format!("{other}: {expected}")));
                 }
             }
@@ -142,7 +159,7 @@ impl Vary {
                 return Err(at(None, format!("{path}: varied twice; expected each field once")));
             }
         }
-        Ok(Self { require, parameters })
+        Ok(Self { require, scene, parameters })
     }
 }
 

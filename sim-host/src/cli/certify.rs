@@ -12,7 +12,6 @@ use clap::{Args, Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use surefoot_sim::closed_loop::Scalar;
 
 /// Options of `certify`.
 #[derive(Debug, Parser)]
@@ -283,6 +282,7 @@ fn finished(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use surefoot_sim::closed_loop::Scalar;
 
     #[test]
     fn precision_is_the_controllers() {
