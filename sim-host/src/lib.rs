@@ -4,9 +4,10 @@
 //! surefoot-mechanics ─► surefoot-multibody ─► surefoot-sim ─► here
 //! ```
 //! [`stability`] tells how long steps may be, [`precision`] what accuracy costs, [`parsimony`] what models of a
-//! motion cost, [`experiments`] repeats those of the text.
+//! motion cost, [`experiments`] repeats those of the text, [`certify`] tells how often a controller fails.
 
 pub mod callgrind;
+pub mod certify;
 pub mod chart;
 pub mod cli;
 pub mod experiments;

@@ -1,6 +1,7 @@
 //! The suite: every algorithm against something that was not written here.
 
 mod balance;
+mod certify;
 mod closed_loop;
 mod documents;
 mod dynamics;

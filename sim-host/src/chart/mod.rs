@@ -2,8 +2,10 @@
 
 mod axes;
 mod bars;
+mod dots;
 mod footprints;
 mod heat_map;
+mod histogram;
 mod log_log;
 mod marks;
 mod mechanism_figures;
@@ -13,8 +15,10 @@ mod time_series;
 mod xy;
 
 pub use bars::{Bar, Bars};
+pub use dots::{DotGroup, Dots};
 pub use footprints::footprints;
 pub use heat_map::{CellAxis, CellKind, CellLine, HeatMap};
+pub use histogram::Histogram;
 pub use log_log::{LogLogChart, MarkedCurve};
 pub use marks::marks;
 pub use mechanism_figures::{MECHANISM_FIGURES, MechanismFigure};

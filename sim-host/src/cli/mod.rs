@@ -5,6 +5,8 @@
 //! is kept; 141 the reader of stdout has gone away.
 
 mod advise;
+mod certify;
+mod certify_files;
 mod chart;
 mod controller;
 mod count_steps;
@@ -53,6 +55,8 @@ enum Command {
     CountTicks(count_ticks::Options),
     /// Advise on a method and a step for a scene and an accuracy
     Advise(advise::Options),
+    /// Tell how often a controller fails, and what makes it fail
+    Certify(certify::Options),
     /// Import a robot from URDF or MJCF: robot.toml, and robot.rs for firmware
     Import(import::Options),
     /// Kinematics and dynamics of a robot for the states of a file
@@ -85,6 +89,7 @@ pub fn main() -> ExitCode {
         Some(Command::CountSteps(options)) => count_steps::count_steps(&options),
         Some(Command::CountTicks(options)) => count_ticks::count_ticks(&options),
         Some(Command::Advise(options)) => advise::advise(&options),
+        Some(Command::Certify(options)) => certify::certify(&options),
         Some(Command::Import(options)) => import::run(&options),
         Some(Command::Dynamics(options)) => dynamics::run(&options),
         Some(Command::List(options)) => list::list(&options),

@@ -2,6 +2,7 @@
 //! what, where and what was expected.
 
 mod any_robot;
+mod certifying;
 mod charts;
 mod documented;
 mod files;

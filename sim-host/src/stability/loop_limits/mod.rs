@@ -26,7 +26,7 @@ pub use criterion::Criterion;
 pub use manner::{BEFORE_S, Ending, LEANING_DEG, Manner, RUNAWAY, RUNAWAY_TICKS, SLIP_M};
 pub(super) use manner::{has_flat_sole, runs_away};
 pub use quantity::{ACCELEROMETER_NOISE, GYROSCOPE_NOISE, Quantity};
-pub(super) use resume::fingerprint;
+pub(crate) use resume::fingerprint;
 pub use resume::{Store, StoreError};
 pub use search::{Found, Ladder, Tolerance, search};
 pub use survey::{Survey, SurveyError};

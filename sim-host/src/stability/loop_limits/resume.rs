@@ -102,7 +102,7 @@ impl Store {
 }
 
 /// A number in hexadecimal digits that tells these bytes from others.
-pub(in crate::stability) fn fingerprint(parts: &[&[u8]]) -> String {
+pub(crate) fn fingerprint(parts: &[&[u8]]) -> String {
     format!("{:016x}", parts.iter().fold(SEED, |so_far, part| hash(so_far, part)))
 }
 
