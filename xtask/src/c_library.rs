@@ -1,7 +1,7 @@
 //! `cargo xtask c`: the controller of a robot as a library for C, with its headers.
 
-use crate::arm_toolchain::{ArmToolchain, TARGET};
 use crate::firmware::Robot;
+use crate::toolchain::Toolchain;
 use crate::workspace;
 use anyhow::{Context, Result, bail};
 use clap::Args;
@@ -47,8 +47,7 @@ pub fn build(robot: &Robot, target: Option<&str>) -> Result<Vec<PathBuf>> {
         )
     })?;
     let cargo = match target {
-        Some(TARGET) => ArmToolchain::provide()?.cargo("build"),
-        Some(other) => workspace::cargo(["build", "--target", other]),
+        Some(target) => Toolchain::provide(target)?.cargo("build"),
         None => workspace::cargo(["build"]),
     };
     let cargo = cargo.args(["--release", "--package", PACKAGE]);

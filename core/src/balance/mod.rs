@@ -38,7 +38,7 @@ mod wrench_distribution;
 pub use contact_wrenches::{
     ContactFoot, ContactLimit, ContactLimits, ContactPatch, ContactProgram, ContactWeights, Reason,
 };
-pub use controller::{Controller, Gains, WorkspaceForm};
+pub use controller::{Controller, WorkspaceForm};
 pub use desired_wrench::{DesiredAcceleration, desired_acceleration};
 pub use fault::{Fault, FootLimit, Input};
 pub use fingerprint::whole_body_fingerprint;

@@ -1,7 +1,7 @@
 //! The controller as a library for C.
 
-use crate::arm_toolchain::TARGET;
 use crate::firmware::Robot;
+use crate::toolchain::TARGET;
 use crate::{c_library, workspace};
 use anyhow::{Context, Result};
 

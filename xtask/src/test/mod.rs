@@ -12,8 +12,8 @@ mod robots;
 mod target;
 mod tests;
 
-use crate::arm_toolchain::ArmToolchain;
 use crate::instructions::nothing_unused_runs;
+use crate::toolchain::{TARGET, Toolchain};
 use crate::workspace::Built;
 use anyhow::Result;
 use clap::{Args, ValueEnum};
@@ -90,7 +90,7 @@ pub fn run(options: &Options) -> Result<()> {
     }
     let on_target = [Stage::Target, Stage::PanicFree, Stage::Firmware, Stage::Budget];
     if on_target.into_iter().any(|stage| options.wants(stage)) {
-        let arm = record.stage("arm-toolchain", ArmToolchain::provide);
+        let arm = record.stage("toolchain", || Toolchain::provide(TARGET));
         if let Some(arm) = &arm {
             if options.wants(Stage::Target) {
                 record.stage("target", || target::run(arm));
