@@ -40,3 +40,8 @@ pub use receiver::{Receiver, Rejected, Tally};
 pub use robot::RobotId;
 pub use status::{Clock, Crash, FaultLog, LineErrors, LoggedFault, NoCrystal, Status};
 pub use walking::{WalkOrder, WalkerFoot, WalkerSettings};
+
+/// The package's own page.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

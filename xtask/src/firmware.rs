@@ -1,6 +1,7 @@
 //! `cargo xtask firmware`: the firmware's images, of one robot.
 
-use crate::emulator::{self, Emulator};
+use crate::emulator;
+use crate::tool::Tool;
 use crate::toolchain::{TARGET, Toolchain};
 use crate::workspace;
 use anyhow::{Context, Result, ensure};
@@ -150,10 +151,10 @@ impl Variant {
         }
     }
 
-    fn emulator(self) -> Emulator {
+    fn emulator(self) -> Tool {
         match self {
-            Self::VirtRv32 => Emulator::RiscV,
-            _ => Emulator::Arm,
+            Self::VirtRv32 => emulator::RISC_V,
+            _ => emulator::ARM,
         }
     }
 
@@ -206,8 +207,8 @@ pub fn build_for_other_chips(robot: &Robot) -> Result<()> {
 }
 
 fn build_images(images: &[Variant], robot: &Robot) -> Result<()> {
-    for emulator in [Emulator::Arm, Emulator::RiscV] {
-        if images.iter().any(|image| image.emulator() == emulator) {
+    for emulator in [emulator::ARM, emulator::RISC_V] {
+        if images.iter().any(|image| image.emulator().program == emulator.program) {
             emulator::provide(emulator)?;
         }
     }

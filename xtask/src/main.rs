@@ -21,6 +21,7 @@ mod instructions;
 mod peers;
 mod step;
 mod test;
+mod tool;
 mod toolchain;
 mod workspace;
 

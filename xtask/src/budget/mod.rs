@@ -5,7 +5,7 @@ mod chips;
 mod cycles;
 mod trace;
 
-use crate::emulator::{self, Emulator};
+use crate::emulator;
 use crate::firmware::{self, Robot, Variant};
 use crate::image::{self, reachable_panics};
 use crate::step::Step;
@@ -156,7 +156,7 @@ pub fn run(options: &Options) -> Result<()> {
 
 /// Measures the images that have been built with this compiler.
 pub fn measure(arm: &Toolchain) -> Result<Report> {
-    let machine = format!("{}, netduinoplus2, -icount shift=4", emulator::provide(Emulator::Arm)?);
+    let machine = format!("{}, netduinoplus2, -icount shift=4", emulator::provide(emulator::ARM)?);
     let path = workspace::root().join("tests/budgets.toml");
     let text = std::fs::read_to_string(&path)
         .with_context(|| format!("cannot read {}", path.display()))?;

@@ -1,14 +1,14 @@
 //! The firmware in the emulator.
 
 use super::robots;
-use crate::emulator::{self, Emulator};
+use crate::emulator;
 use crate::toolchain::Toolchain;
 use crate::{firmware, workspace};
 use anyhow::{Context, Result};
 
 /// Builds the images and runs the tests, of the command line too, that need them.
 pub fn run(arm: &Toolchain) -> Result<String> {
-    let emulator = emulator::provide(Emulator::Arm)?;
+    let emulator = emulator::provide(emulator::ARM)?;
     let robot = firmware::Robot::of_the_text()?;
     firmware::build(arm, &robot)?;
     firmware::build_for_other_chips(&robot)?;

@@ -6,6 +6,7 @@ mod c_library;
 mod doc_tests;
 mod documented;
 mod firmware;
+mod packages;
 mod panic_free;
 mod record;
 mod robots;
@@ -37,6 +38,8 @@ enum Stage {
     Tests,
     /// The examples in the documentation, on the host.
     DocTests,
+    /// The crates that can be published are whole, and compile with the oldest compiler.
+    Packages,
     /// The report's page and its replay, in a browser.
     Browser,
     /// Robots of other projects, from Python's package index: import, and dynamics against Pinocchio and MuJoCo.
@@ -74,6 +77,9 @@ pub fn run(options: &Options) -> Result<()> {
     }
     if options.wants(Stage::DocTests) {
         record.stage("doc-tests", doc_tests::run);
+    }
+    if options.wants(Stage::Packages) {
+        record.stage("packages", packages::run);
     }
     if options.wants(Stage::Browser) {
         record.stage("browser", browser::run);
