@@ -206,6 +206,15 @@ pub fn build_for_other_chips(robot: &Robot) -> Result<()> {
     build_images(&Variant::OTHERS, robot)
 }
 
+/// Builds the image for the emulator.
+///
+/// # Returns
+/// Where it is.
+pub fn build_emulation(robot: &Robot) -> Result<PathBuf> {
+    build_images(&[Variant::Emulation], robot)?;
+    Ok(Variant::Emulation.path(robot))
+}
+
 fn build_images(images: &[Variant], robot: &Robot) -> Result<()> {
     for emulator in [emulator::ARM, emulator::RISC_V] {
         if images.iter().any(|image| image.emulator().program == emulator.program) {

@@ -3,6 +3,7 @@
 
 mod chips;
 mod cycles;
+mod document;
 mod trace;
 
 use crate::emulator;
@@ -24,6 +25,9 @@ pub struct Options {
     /// Print one JSON document on stdout, and nothing else.
     #[arg(long)]
     json: bool,
+    /// Also write the table of chips into docs/chips.md.
+    #[arg(long)]
+    document: bool,
 }
 
 /// Limits, from the file.
@@ -148,6 +152,9 @@ pub fn run(options: &Options) -> Result<()> {
     } else {
         print(&report);
     }
+    if options.document {
+        document::write(&chips::table(&report.targets))?;
+    }
     match report.broken() {
         broken if broken.is_empty() => Ok(()),
         broken => bail!("over budget: {}", broken.join("; ")),
@@ -217,6 +224,11 @@ pub fn measure(arm: &Toolchain) -> Result<Report> {
     })
 }
 
+/// What the documents say otherwise.
+pub fn outdated(report: &Report) -> Result<Option<String>> {
+    document::outdated(&chips::table(&report.targets))
+}
+
 /// As a table.
 pub fn print(report: &Report) {
     let Report { budget, instructions, cycles_estimate, .. } = report;
@@ -283,6 +295,6 @@ pub fn print(report: &Report) {
         println!("  {class:<32}{count:>12}");
     }
     println!("cycles are an estimate: {}", cycles_estimate.model);
-    chips::print(&report.targets);
+    print!("{}", chips::table(&report.targets));
     println!("over {} ticks, and {} within limits", report.ticks, report.limited_ticks);
 }

@@ -3,7 +3,7 @@
 use crate::budget::{self, measure};
 use crate::firmware;
 use crate::toolchain::Toolchain;
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 
 /// Builds, measures, and compares.
 pub fn run(arm: &Toolchain) -> Result<String> {
@@ -13,5 +13,8 @@ pub fn run(arm: &Toolchain) -> Result<String> {
     let report = measure(arm)?;
     budget::print(&report);
     ensure!(report.broken().is_empty(), "over budget: {}", report.broken().join("; "));
+    if let Some(outdated) = budget::outdated(&report)? {
+        bail!(outdated);
+    }
     Ok(format!("a tick takes {} instructions at most", report.instructions.max))
 }
