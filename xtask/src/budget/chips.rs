@@ -45,6 +45,8 @@ pub struct Chip {
     stack_bytes: u64,
     /// Of the image.
     flash_bytes: u64,
+    /// Panicking functions that the tick's handler can reach.
+    panic_paths: Vec<String>,
     /// Torques, wrenches, stops and what limits made of each tick, beside the host's controller.
     bits_equal: bool,
 }
@@ -67,7 +69,9 @@ pub fn measure(robot: &Robot) -> Result<BTreeMap<&'static str, Chip>> {
         };
         let path = shipped.path(robot);
         let contents = std::fs::read(&path).with_context(|| path.display().to_string())?;
-        let flash_bytes = image::flash_bytes(&image::parse(&contents)?);
+        let image = image::parse(&contents)?;
+        let panic_paths = image::reachable_panics(&image, handler(*variant))?;
+        let flash_bytes = image::flash_bytes(&image);
         let target = variant.target();
         chips.insert(
             name,
@@ -79,12 +83,22 @@ pub fn measure(robot: &Robot) -> Result<BTreeMap<&'static str, Chip>> {
                 limited_instructions,
                 stack_bytes,
                 flash_bytes,
+                panic_paths,
                 bits_equal,
             },
         );
     }
     ensure!(measured.is_empty(), "the example runs images that are none");
     Ok(chips)
+}
+
+/// What makes a tick in the image.
+fn handler(variant: Variant) -> &'static str {
+    match variant {
+        Variant::Mps2An505 | Variant::Mps2An500 => "PendSV",
+        Variant::VirtRv32 => "MachineSoft",
+        _ => "TIM2",
+    }
 }
 
 /// What is over its limit.
@@ -96,6 +110,9 @@ pub fn broken(
     for (name, chip) in chips {
         if !chip.bits_equal {
             broken.push(format!("{name} has not the host's bits"));
+        }
+        if let Some(function) = chip.panic_paths.first() {
+            broken.push(format!("{name}: the tick can reach {function}"));
         }
         let Some(budget) = budgets.get(*name) else {
             broken.push(format!("{name} has no budget"));
