@@ -5,17 +5,30 @@
 #ifndef SUREFOOT_H
 #define SUREFOOT_H
 
-#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include "surefoot_robot.h"
 
 /**
  * Words of eight bytes that a controller takes.
  */
 #define SUREFOOT_CONTROLLER_WORDS (128 + (32 * SUREFOOT_JOINTS))
+
+/**
+ * Version of this header: larger where calls or layouts have changed.
+ */
+#define SUREFOOT_VERSION_MAJOR 0
+
+/**
+ * Version of this header: before 1.0 larger where calls or layouts have changed.
+ */
+#define SUREFOOT_VERSION_MINOR 1
+
+/**
+ * Version of this header: larger where nothing of that has changed.
+ */
+#define SUREFOOT_VERSION_PATCH 0
 
 /**
  * What became of a call.
@@ -371,6 +384,18 @@ surefoot_status surefoot_disarm(surefoot_controller *controller);
 surefoot_status surefoot_tick(surefoot_controller *controller,
                               const surefoot_measurement *measurement,
                               surefoot_command *command);
+
+/**
+ * Version of the library: `MAJOR << 16 | MINOR << 8 | PATCH`. A program whose header says another major or, before
+ * 1.0, another minor number must not call the rest.
+ */
+uint32_t surefoot_version(void);
+
+/**
+ * Version of the library: `MAJOR << 16 | MINOR << 8 | PATCH`. A program whose header says another major or, before
+ * 1.0, another minor number must not call the rest.
+ */
+uint32_t surefoot_version(void);
 
 #ifdef __cplusplus
 }  // extern "C"

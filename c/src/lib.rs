@@ -14,6 +14,7 @@ mod measurement;
 mod robot;
 mod settings;
 mod status;
+mod version;
 
 pub use command::{SurefootCommand, SurefootLimit, SurefootMode, SurefootStop};
 pub use controller::{SUREFOOT_CONTROLLER_WORDS, SurefootController};
@@ -21,6 +22,9 @@ pub use measurement::SurefootMeasurement;
 pub use robot::{SUREFOOT_JOINTS, SUREFOOT_LEGS};
 pub use settings::SurefootSettings;
 pub use status::SurefootStatus;
+pub use version::{
+    SUREFOOT_VERSION_MAJOR, SUREFOOT_VERSION_MINOR, SUREFOOT_VERSION_PATCH, surefoot_version,
+};
 
 use controller::Balance;
 

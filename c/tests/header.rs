@@ -26,6 +26,9 @@ fn the_header_is_the_interface() {
         header: Some(PREAMBLE.to_owned()),
         include_guard: Some("SUREFOOT_H".to_owned()),
         includes: vec!["surefoot_robot.h".to_owned()],
+        // Those that a compiler has without a library.
+        no_includes: true,
+        sys_includes: ["stdbool.h", "stddef.h", "stdint.h"].map(str::to_owned).into(),
         cpp_compat: true,
         style: Style::Type,
         line_length: 100,
@@ -45,7 +48,9 @@ fn the_header_is_the_interface() {
         ..Config::default()
     };
     let mut builder = Builder::new().with_config(config);
-    for file in ["lib", "status", "settings", "measurement", "command", "controller", "robot"] {
+    for file in
+        ["lib", "status", "settings", "measurement", "command", "controller", "robot", "version"]
+    {
         builder = builder.with_src(format!("{folder}/src/{file}.rs"));
     }
     let mut header = Vec::new();

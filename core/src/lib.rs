@@ -32,6 +32,8 @@
 //! assert!(recovered.iter().zip(accelerations).all(|(a, b)| (a - b).abs() < 1e-9));
 //! # Ok::<(), surefoot::dynamics::DynamicsFault>(())
 //! ```
+//! # Features
+//! - `serde` (off): faults, modes, limits and reports can be sent. No feature changes a number.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -45,4 +47,11 @@ mod scalar;
 pub mod spatial;
 pub mod walk;
 
+/// Vectors and matrices of this crate's interface, in the version that it takes.
+pub use nalgebra;
 pub use scalar::Real;
+
+/// The package's own page.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,4 +1,4 @@
-//! The balance controller on a Cortex-M4F.
+//! The balance controller on a Cortex-M4F, and on the cores that `board` has besides.
 //!
 //! # Priorities
 //! ```text
@@ -42,6 +42,8 @@ mod log;
 mod logger;
 #[cfg(target_os = "none")]
 mod no_init;
+#[cfg(all(target_os = "none", not(feature = "stm32f405")))]
+mod plain;
 #[cfg(all(target_os = "none", not(whole_body)))]
 mod profile;
 #[cfg(target_os = "none")]
@@ -69,7 +71,7 @@ use {
     six_jointed::{Balance, Limits, NEEDED, limits, standing, walker},
 };
 
-#[cfg(target_os = "none")]
+#[cfg(all(target_os = "none", feature = "stm32f405"))]
 #[rtic::app(device = crate::board::device, peripherals = true)]
 mod app {
     use crate::application::Application;
@@ -151,5 +153,5 @@ mod app {
 
 #[cfg(not(target_os = "none"))]
 fn main() {
-    println!("This program is for a Cortex-M4F; `cargo xtask test` builds it and runs it in QEMU.");
+    println!("This program is for a board; `cargo xtask test` builds it and runs it in QEMU.");
 }

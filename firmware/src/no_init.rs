@@ -90,16 +90,38 @@ fn write_byte(at: usize, byte: u8) {
     }
 }
 
-/// Deepest the stack has been since the reset, in bytes: startup code has painted it.
-pub fn stack_bytes() -> u32 {
+/// cortex-m-rt's `STACK_PAINT_VALUE`.
+const PAINT: u32 = 0xcccc_cccc;
+
+/// The stack's lowest and highest address.
+fn stack() -> (*mut u32, *mut u32) {
     unsafe extern "C" {
+        #[cfg_attr(target_arch = "riscv32", link_name = "__estack")]
         static mut _stack_end: u32;
         static mut _stack_start: u32;
     }
-    /// cortex-m-rt's `STACK_PAINT_VALUE`.
-    const PAINT: u32 = 0xcccc_cccc;
-    let (low, high) = (addr_of!(_stack_end), addr_of!(_stack_start));
-    let mut at = low;
+    (addr_of_mut!(_stack_end), addr_of_mut!(_stack_start))
+}
+
+/// Paints what is free of the stack, where startup code does not.
+#[cfg(target_arch = "riscv32")]
+pub fn paint_stack() {
+    let (mut at, _) = stack();
+    let pointer: usize;
+    // SAFETY: reads a register.
+    unsafe { core::arch::asm!("mv {}, sp", out(reg) pointer) };
+    // Words below the stack pointer, but for those that this function may yet use.
+    while (at as usize) + 256 < pointer {
+        // SAFETY: within the stack's memory, and below all that is on it.
+        unsafe { at.write_volatile(PAINT) };
+        at = at.wrapping_add(1);
+    }
+}
+
+/// Deepest the stack has been since the reset, in bytes: it has been painted before.
+pub fn stack_bytes() -> u32 {
+    let (low, high) = stack();
+    let mut at = low.cast_const();
     // SAFETY: words of the stack's memory, from its lowest up; read only.
     while at < high && unsafe { at.read_volatile() } == PAINT {
         at = at.wrapping_add(1);

@@ -42,3 +42,8 @@ pub use robot::RobotId;
 pub use sensing::{Estimated, FilterSettings, ObserverSettings, Readings, by_foot};
 pub use status::{Clock, Crash, FaultLog, LineErrors, LoggedFault, NoCrystal, Status};
 pub use walking::{WalkOrder, WalkerFoot, WalkerSettings};
+
+/// The package's own page.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

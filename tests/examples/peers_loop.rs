@@ -1,5 +1,6 @@
 //! `peers_loop SCENE`: what `cargo xtask peers --loop` needs to close a scene's loop on another plant: the robot as a
-//! MuJoCo model with its start, the controller's settings, and what this project's plant survives. One JSON document.
+//! MuJoCo model with its start, the controller's settings, and what this project's plant survives (not with a second
+//! argument `model`). One JSON document.
 
 use serde_json::{Value, json};
 use surefoot_host::precision::mujoco_model;
@@ -27,8 +28,13 @@ fn main() {
     let (joints, (link, frame)) = (plant.hinges(), plant.central());
     let model = mujoco_model(&mut plant.simulation().clone()).expect("hinges and a free body");
     let settings = &scene.controller;
-    let survived: Vec<Value> = DIRECTIONS
-        .into_iter()
+    let directions = match std::env::args().nth(2).as_deref() {
+        Some("model") => &[][..],
+        _ => &DIRECTIONS[..],
+    };
+    let survived: Vec<Value> = directions
+        .iter()
+        .copied()
         .map(|degrees| json!({ "degrees": degrees, "impulse": largest(&scene, degrees) }))
         .collect();
     println!(

@@ -2,6 +2,7 @@
 //! nothing to say.
 
 use std::env;
+use std::fs;
 use std::path::Path;
 
 fn main() {
@@ -10,9 +11,11 @@ fn main() {
         return;
     }
     let package = env::var("CARGO_MANIFEST_DIR").expect("cargo sets it for build scripts");
-    let workspace = Path::new(&package).join("../..");
-    println!("cargo::rerun-if-changed={}", workspace.join("memory.x").display());
-    println!("cargo::rustc-link-search={}", workspace.display());
+    let memory = Path::new(&package).join("../../firmware/memory/stm32f405.x");
+    println!("cargo::rerun-if-changed={}", memory.display());
+    let out = env::var("OUT_DIR").expect("cargo sets it for build scripts");
+    fs::copy(&memory, Path::new(&out).join("memory.x")).expect("cargo's folder can be written");
+    println!("cargo::rustc-link-search={out}");
     println!("cargo::rustc-link-arg-bins=-Tlink.x");
     // No gap of a page between headers and flash: the image starts where the flash does.
     println!("cargo::rustc-link-arg-bins=--nmagic");

@@ -21,7 +21,8 @@ FAR, TILTED = 0.05, np.radians(5.0)  # of a robot that has survived, at the end
 class Controller:
     """The library's structures, sized by its robot."""
 
-    def __init__(self, path, model):
+    def __init__(self, path, model, as_built=False):
+        """With the model's settings within limits, or as the library was built: the robot's file, each millisecond."""
         library = self.library = ctypes.CDLL(path)
         joints = ctypes.c_size_t.in_dll(library, "surefoot_joints").value
         legs = ctypes.c_size_t.in_dll(library, "surefoot_legs").value
@@ -72,17 +73,19 @@ class Controller:
         self.memory, self.measurement, self.command = Memory(), Measurement(), Command()
         settings = Settings()
         self.check(library.surefoot_default_settings(ctypes.byref(settings)))
-        settings.period = model["period"]
-        gains = ("position_gain", "velocity_gain", "orientation_gain", "angular_velocity_gain")
-        for name, values in zip(gains, model["gains"]):
-            setattr(settings, name, three(*values))
-        settings.is_limited = True
-        # As the project's own loop counts on the floor.
-        settings.friction = 0.8 * model["friction"]
+        if not as_built:
+            settings.period = model["period"]
+            gains = ("position_gain", "velocity_gain", "orientation_gain", "angular_velocity_gain")
+            for name, values in zip(gains, model["gains"]):
+                setattr(settings, name, three(*values))
+            settings.is_limited = True
+            # As the project's own loop counts on the floor.
+            settings.friction = 0.8 * model["friction"]
         self.check(library.surefoot_init(ctypes.byref(self.memory), ctypes.byref(settings)))
-        pose = model["set_point"]
-        position, orientation = three(*pose["position"]), (real * 4)(*pose["orientation"])
-        self.check(library.surefoot_set_pose(ctypes.byref(self.memory), position, orientation))
+        if not as_built:
+            pose = model["set_point"]
+            position, orientation = three(*pose["position"]), (real * 4)(*pose["orientation"])
+            self.check(library.surefoot_set_pose(ctypes.byref(self.memory), position, orientation))
         self.check(library.surefoot_arm(ctypes.byref(self.memory)))
 
     @staticmethod

@@ -4,6 +4,7 @@
 //! `cargo test --workspace --test target -- --ignored`.
 
 mod bench;
+mod chips;
 mod equality;
 mod faults;
 mod logging;

@@ -7,7 +7,7 @@ use std::thread::sleep;
 use std::time::Duration;
 use surefoot::balance::Mode;
 use surefoot_link::{LineErrors, Pacing};
-use surefoot_sim::closed_loop::firmware::{Emulator, SerialPort, settings};
+use surefoot_sim::closed_loop::firmware::{Machine, SerialPort, settings};
 use surefoot_sim::scene::load;
 
 use crate::bench::{Bench, JOINTS, Target, ToTarget, image, target};
@@ -19,11 +19,15 @@ impl OverUart {
     /// # Returns
     /// The emulator, and the pseudo-terminal's path.
     pub fn start(name: &str) -> (Self, String) {
+        Self::start_on(&Machine::REFERENCE, name)
+    }
+
+    /// The same on another machine.
+    pub fn start_on(machine: &Machine, name: &str) -> (Self, String) {
         let folder = env!("CARGO_TARGET_TMPDIR");
-        let mut child = Command::new(Emulator::program())
-            .args(["-machine", "netduinoplus2", "-nographic", "-monitor", "none"])
-            .args(["-serial", "pty", "-semihosting-config", "enable=on,target=native"])
-            .args(["-icount", "shift=4"])
+        let mut child = Command::new(machine.program())
+            .args(machine.arguments())
+            .args(["-nographic", "-monitor", "none", "-serial", "pty"])
             .arg("-kernel")
             .arg(image(name))
             .current_dir(folder)

@@ -1,7 +1,7 @@
 //! `cargo xtask c`: the controller of a robot as a library for C, with its headers.
 
-use crate::arm_toolchain::{ArmToolchain, TARGET};
 use crate::firmware::Robot;
+use crate::toolchain::Toolchain;
 use crate::workspace;
 use anyhow::{Context, Result, bail};
 use clap::Args;
@@ -17,9 +17,10 @@ pub struct Options {
     /// The robot.rs that `surefoot import` wrote; the robot of the text unless said.
     #[arg(long, value_name = "DIR/robot.rs")]
     robot: Option<PathBuf>,
-    /// A target as rustc calls it, such as thumbv7em-none-eabihf; this machine unless said.
+    /// A target as rustc calls it, such as thumbv7em-none-eabihf (may be given several times, for an archive each);
+    /// this machine unless said.
     #[arg(long, value_name = "TRIPLE")]
-    target: Option<String>,
+    target: Vec<String>,
 }
 
 /// Builds, and says where everything is.
@@ -28,8 +29,12 @@ pub fn run(options: &Options) -> Result<()> {
         Some(file) => Robot::of_file(file)?,
         None => Robot::of_the_text()?,
     };
-    for path in build(&robot, options.target.as_deref())? {
-        println!("{}", path.display());
+    let targets = options.target.iter().map(|target| Some(target.as_str()));
+    let this_machine = options.target.is_empty().then_some(None);
+    for target in targets.chain(this_machine) {
+        for path in build(&robot, target)? {
+            println!("{}", path.display());
+        }
     }
     Ok(())
 }
@@ -47,8 +52,7 @@ pub fn build(robot: &Robot, target: Option<&str>) -> Result<Vec<PathBuf>> {
         )
     })?;
     let cargo = match target {
-        Some(TARGET) => ArmToolchain::provide()?.cargo("build"),
-        Some(other) => workspace::cargo(["build", "--target", other]),
+        Some(target) => Toolchain::provide(target)?.cargo("build"),
         None => workspace::cargo(["build"]),
     };
     let cargo = cargo.args(["--release", "--package", PACKAGE]);
@@ -71,11 +75,21 @@ pub fn build(robot: &Robot, target: Option<&str>) -> Result<Vec<PathBuf>> {
     }
     let header = workspace::root().join("c/include/surefoot.h");
     files.push(copied(&header, &folder)?);
-    let sizes = folder.join("surefoot_robot.h");
-    std::fs::write(&sizes, robot_header(robot.name(), legs))
-        .with_context(|| format!("{} cannot be written", sizes.display()))?;
-    files.push(sizes);
+    files.push(copied(&workspace::root().join("c/cmake/surefoot-config.cmake"), &folder)?);
+    files.push(written(&folder, "surefoot_robot.h", &robot_header(robot.name(), legs))?);
+    let version = VERSION_OF_CMAKE.replace("@VERSION@", env!("CARGO_PKG_VERSION"));
+    files.push(written(&folder, "surefoot-config-version.cmake", &version)?);
     Ok(files)
+}
+
+/// All packages of the workspace have one version.
+const VERSION_OF_CMAKE: &str = include_str!("../../c/cmake/surefoot-config-version.cmake");
+
+fn written(folder: &Path, name: &str, contents: &str) -> Result<PathBuf> {
+    let file = folder.join(name);
+    std::fs::write(&file, contents)
+        .with_context(|| format!("{} cannot be written", file.display()))?;
+    Ok(file)
 }
 
 fn copied(file: &Path, folder: &Path) -> Result<PathBuf> {

@@ -1,7 +1,9 @@
 //! `cargo xtask firmware`: the firmware's images, of one robot.
 
-use crate::arm_toolchain::ArmToolchain;
-use crate::{emulator, workspace};
+use crate::emulator;
+use crate::tool::Tool;
+use crate::toolchain::{TARGET, Toolchain};
+use crate::workspace;
 use anyhow::{Context, Result, ensure};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -23,7 +25,7 @@ pub struct Options {
     /// Images that estimate the state and observe disturbances, below the robot's name with `-estimates`.
     #[arg(long)]
     estimates: bool,
-    /// Only this image (may be given several times); all unless said.
+    /// Only this image (may be given several times); those of the reference board's chip unless said.
     #[arg(long, value_name = "IMAGE")]
     image: Vec<Variant>,
 }
@@ -122,17 +124,48 @@ pub enum Variant {
     Emulation,
     /// For the emulator, with no message logged.
     Silent,
+    /// For QEMU's board with a Cortex-M33.
+    #[value(name = "mps2-an505")]
+    Mps2An505,
+    /// For QEMU's board with a Cortex-M7.
+    #[value(name = "mps2-an500")]
+    Mps2An500,
+    /// For QEMU's board with an RV32IMAFC.
+    #[value(name = "virt-rv32")]
+    VirtRv32,
 }
 
 impl Variant {
-    /// All images.
-    pub const ALL: [Self; 3] = [Self::Board, Self::Emulation, Self::Silent];
+    /// Of the reference board's chip.
+    pub const REFERENCE: [Self; 3] = [Self::Board, Self::Emulation, Self::Silent];
+    /// Of other chips.
+    pub const OTHERS: [Self; 3] = [Self::Mps2An505, Self::Mps2An500, Self::VirtRv32];
 
-    fn name(self) -> &'static str {
+    /// Of its file.
+    pub fn name(self) -> &'static str {
         match self {
             Self::Board => "board",
             Self::Emulation => "emulation",
             Self::Silent => "silent",
+            Self::Mps2An505 => "mps2-an505",
+            Self::Mps2An500 => "mps2-an500",
+            Self::VirtRv32 => "virt-rv32",
+        }
+    }
+
+    /// As rustc calls it.
+    pub fn target(self) -> &'static str {
+        match self {
+            Self::Mps2An505 => "thumbv8m.main-none-eabihf",
+            Self::VirtRv32 => "riscv32imafc-unknown-none-elf",
+            _ => TARGET,
+        }
+    }
+
+    fn emulator(self) -> Tool {
+        match self {
+            Self::VirtRv32 => emulator::RISC_V,
+            _ => emulator::ARM,
         }
     }
 
@@ -145,13 +178,22 @@ impl Variant {
         folder.join(format!("{}.elf", self.name()))
     }
 
-    fn build(self, arm: &ArmToolchain, robot: &Robot) -> Result<()> {
+    fn build(self, toolchain: &Toolchain, robot: &Robot) -> Result<()> {
         let (features, log): (&[&str], _) = match self {
             Self::Board => (&[], "info"),
             Self::Emulation => (&["--features", "emulation"], "debug"),
             Self::Silent => (&["--features", "emulation"], "off"),
+            _ => (&["--no-default-features", "--features", self.name()], "info"),
         };
-        let cargo = arm.cargo("build").args(["--release", "--package", PACKAGE]);
+        let mut cargo = toolchain.cargo("build");
+        if let Self::Mps2An500 = self {
+            // The triple is the Cortex-M4F's too. A folder of its own keeps both sets of libraries.
+            let folder = workspace::root().join("target/cortex-m7");
+            cargo = cargo
+                .env(toolchain.setting("RUSTFLAGS"), "-C target-cpu=cortex-m7")
+                .args(["--target-dir".into(), folder.into_os_string()]);
+        }
+        let cargo = cargo.args(["--release", "--package", PACKAGE]);
         let cargo = cargo.args(features.iter().copied()).env("DEFMT_LOG", log);
         let mut cargo = cargo.env("SUREFOOT_ROBOT", &robot.source);
         if robot.walks {
@@ -169,9 +211,32 @@ impl Variant {
     }
 }
 
-/// Builds all images of a robot.
-pub fn build(arm: &ArmToolchain, robot: &Robot) -> Result<()> {
-    Variant::ALL.into_iter().try_for_each(|variant| variant.build(arm, robot))
+/// Builds all images of a robot for the reference board's chip.
+pub fn build(arm: &Toolchain, robot: &Robot) -> Result<()> {
+    Variant::REFERENCE.into_iter().try_for_each(|variant| variant.build(arm, robot))
+}
+
+/// Builds a robot's images for other chips, with what is missing for that installed, and for running them.
+pub fn build_for_other_chips(robot: &Robot) -> Result<()> {
+    build_images(&Variant::OTHERS, robot)
+}
+
+/// Builds the image for the emulator.
+///
+/// # Returns
+/// Where it is.
+pub fn build_emulation(robot: &Robot) -> Result<PathBuf> {
+    build_images(&[Variant::Emulation], robot)?;
+    Ok(Variant::Emulation.path(robot))
+}
+
+fn build_images(images: &[Variant], robot: &Robot) -> Result<()> {
+    for emulator in [emulator::ARM, emulator::RISC_V] {
+        if images.iter().any(|image| image.emulator().program == emulator.program) {
+            emulator::provide(emulator)?;
+        }
+    }
+    images.iter().try_for_each(|image| image.build(&Toolchain::provide(image.target())?, robot))
 }
 
 /// Builds all images, and says where they are.
@@ -182,10 +247,8 @@ pub fn run(options: &Options) -> Result<()> {
     };
     let robot = if options.walks { robot.walking() } else { robot };
     let robot = if options.estimates { robot.estimating() } else { robot };
-    let images = if options.image.is_empty() { &Variant::ALL[..] } else { &options.image };
-    emulator::provide()?;
-    let arm = ArmToolchain::provide()?;
-    images.iter().try_for_each(|variant| variant.build(&arm, &robot))?;
+    let images = if options.image.is_empty() { &Variant::REFERENCE[..] } else { &options.image };
+    build_images(images, &robot)?;
     for variant in images {
         println!("{}", variant.path(&robot).display());
     }

@@ -12,7 +12,6 @@
 //! named, 2 bad usage.
 
 mod apt;
-mod arm_toolchain;
 mod budget;
 mod c_library;
 mod emulator;
@@ -22,6 +21,8 @@ mod instructions;
 mod peers;
 mod step;
 mod test;
+mod tool;
+mod toolchain;
 mod workspace;
 
 use clap::{Parser, Subcommand};

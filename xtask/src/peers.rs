@@ -4,6 +4,7 @@
 //! of the machine is touched. Times are of this machine and of this hour: what can be compared is what one
 //! run gives.
 
+mod lock_step;
 mod peers_loop;
 
 use crate::step::Step;
@@ -23,6 +24,9 @@ pub struct Options {
     /// Close the loop of a scene with MuJoCo as plant instead, and print the largest pushes that either survives.
     #[arg(long = "loop")]
     is_loop: bool,
+    /// Let MuJoCo step the firmware in QEMU over the link instead, and compare each tick with the host's library.
+    #[arg(long, conflicts_with = "is_loop")]
+    lock_step: bool,
     /// The scene of the loop.
     #[arg(long, default_value = "stand", requires = "is_loop")]
     scene: String,
@@ -86,6 +90,9 @@ pub fn run(options: &Options) -> Result<()> {
     let python = mujoco(&folder)?;
     if options.is_loop {
         return peers_loop::run(&options.scene, &folder, &python, options.json);
+    }
+    if options.lock_step {
+        return lock_step::run(&folder, &python);
     }
     let build = ["build", "--release", "--package", "surefoot-tests", "--example", "peers"];
     let programs = workspace::executables(workspace::cargo(build), [])?;

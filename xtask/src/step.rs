@@ -20,7 +20,7 @@ const LINES_OF_A_FAILURE: usize = 12;
 pub struct Step {
     program: OsString,
     arguments: Vec<OsString>,
-    environment: Vec<(&'static str, OsString)>,
+    environment: Vec<(String, OsString)>,
     folder: PathBuf,
     limit: Duration,
 }
@@ -41,8 +41,8 @@ impl Step {
     }
 
     /// Sets an environment variable.
-    pub fn env(mut self, name: &'static str, value: impl Into<OsString>) -> Self {
-        self.environment.push((name, value.into()));
+    pub fn env(mut self, name: impl Into<String>, value: impl Into<OsString>) -> Self {
+        self.environment.push((name.into(), value.into()));
         self
     }
 

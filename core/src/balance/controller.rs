@@ -1,35 +1,7 @@
 //! The controller's constants.
 
-use super::{FootLimits, LeggedRobot};
+use super::{FootLimits, Gains, LeggedRobot};
 use crate::Real;
-use crate::spatial::SymmetricMatrix3;
-
-/// Gain matrices of §4.2.4, symmetric and positive definite. All are gains from an error to an
-/// acceleration: they do not depend on the robot.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gains<T> {
-    /// `K_c^p`, 1/s²
-    pub position: SymmetricMatrix3<T>,
-    /// `K_c^v`, 1/s
-    pub velocity: SymmetricMatrix3<T>,
-    /// `K_R^p`, 1/s², on `sin(θ_e/2)`
-    pub orientation: SymmetricMatrix3<T>,
-    /// `K_R^v`, 1/s
-    pub angular_velocity: SymmetricMatrix3<T>,
-}
-
-impl<T: Real> Gains<T> {
-    /// The gains of both experiments of §4.3.
-    pub fn experiments() -> Self {
-        let diagonal = |x, y, z| SymmetricMatrix3::diagonal(T::of(x), T::of(y), T::of(z));
-        Self {
-            position: diagonal(50.0, 50.0, 200.0),
-            velocity: diagonal(7.07, 7.07, 14.142),
-            orientation: diagonal(50.0, 50.0, 50.0),
-            angular_velocity: diagonal(7.07, 7.07, 7.07),
-        }
-    }
-}
 
 /// How the workspace dynamics take the feet.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,6 +20,7 @@ mod desired_wrench;
 mod fault;
 mod fingerprint;
 mod foot_limits;
+mod gains;
 mod ground_wrench;
 mod joint_torques;
 mod least_norm;
@@ -38,11 +39,12 @@ mod wrench_distribution;
 pub use contact_wrenches::{
     ContactFoot, ContactLimit, ContactLimits, ContactPatch, ContactProgram, ContactWeights, Reason,
 };
-pub use controller::{Controller, Gains, WorkspaceForm};
+pub use controller::{Controller, WorkspaceForm};
 pub use desired_wrench::{DesiredAcceleration, desired_acceleration};
 pub use fault::{Fault, FootLimit, Input};
 pub use fingerprint::whole_body_fingerprint;
 pub use foot_limits::{FootLimits, FootLimitsFault, Sole};
+pub use gains::Gains;
 pub use ground_wrench::{FixedFootWrenches, fixed_foot_wrenches, sole_axes};
 pub use joint_torques::joint_torques;
 pub use leg_jacobian::LegJacobian;

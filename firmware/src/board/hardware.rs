@@ -1,6 +1,7 @@
 //! On a real chip: ticks by TIM2, cycles by the debug unit's counter, link by UART, logs by RTT.
 
-use super::stm32f405::{Uart, device, since_due};
+use super::since_due;
+use super::stm32f405::{Uart, device};
 use core::cell::UnsafeCell;
 use cortex_m::peripheral::DWT;
 use rtt_target::{ChannelMode, UpChannel, rtt_init};
@@ -24,12 +25,6 @@ pub struct TickTimer {
 impl TickTimer {
     /// Longest period, µs: 2³² counts.
     pub const LONGEST_US: u32 = ((1_u64 << 32) * 1_000_000 / TIMER_HZ as u64) as u32;
-
-    /// Not running yet.
-    pub fn new(registers: device::TIM2, counter: Counter) -> Self {
-        registers.dier().write(|w| w.uie().set_bit());
-        Self { registers, counter }
-    }
 
     /// A tick every `period` seconds.
     pub fn run(&mut self, period: f32) {
@@ -58,6 +53,12 @@ impl TickTimer {
         // It began anew when the tick was due.
         self.registers.cnt().read().bits().saturating_mul(CORE_HZ / TIMER_HZ)
     }
+}
+
+/// Not running yet.
+pub fn tick_timer(registers: device::TIM2, counter: Counter) -> TickTimer {
+    registers.dier().write(|w| w.uie().set_bit());
+    TickTimer { registers, counter }
 }
 
 /// Counts clock cycles.

@@ -8,9 +8,8 @@
 //! | clock | the crystal and PLL, or the internal oscillator (`stm32f4_clock.rs`) |
 //! | µs | TIM5, which goes round after 71 minutes |
 
-use super::{Counter, Link, MICROSECOND, TickTimer, stm32f4_clock};
+use super::{Counter, Link, MICROSECOND, TickTimer, stm32f4_clock, tick_timer};
 use crate::robot::{FRAME, ROW, ROWS};
-use core::sync::atomic::{AtomicU32, Ordering};
 use heapless::spsc::{Consumer, Producer, Queue};
 use surefoot_firmware::clock::divider;
 use surefoot_firmware::uart::{self, Errors};
@@ -83,7 +82,7 @@ impl Board {
         USART1.cr1().write(|w| w.ue().set_bit().te().set_bit().re().set_bit().rxneie().set_bit());
         let counter = Counter::start(core);
         Self {
-            timer: TickTimer::new(TIM2, counter),
+            timer: tick_timer(TIM2, counter),
             counter,
             motors: Motors { port: GPIOB },
             watchdog: Watchdog { registers: IWDG },
@@ -101,20 +100,11 @@ pub fn now_us() -> u32 {
     unsafe { (*device::TIM5::ptr()).cnt().read().bits() }
 }
 
-/// When the present tick was due, in lock step.
-static DUE: AtomicU32 = AtomicU32::new(0);
-
 /// Runs the tick at once: its interrupt has the highest priority.
-pub fn tick_now(counter: Counter) {
-    DUE.store(counter.now(), Ordering::Relaxed);
+#[inline(always)]
+pub fn pend_tick() {
     rtic::pend(device::Interrupt::TIM2);
     cortex_m::asm::isb();
-}
-
-/// Cost since [`tick_now`].
-#[inline(always)]
-pub fn since_due(counter: Counter) -> u32 {
-    counter.since(DUE.load(Ordering::Relaxed))
 }
 
 /// Where torques go. This board has no drives: the pin says whether there may be torques, and the

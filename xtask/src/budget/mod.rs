@@ -1,16 +1,19 @@
 //! `cargo xtask budget`: what the firmware takes on its target, and whether that is within
 //! `tests/budgets.toml`.
 
+mod chips;
 mod cycles;
+mod document;
 mod trace;
 
-use crate::arm_toolchain::ArmToolchain;
 use crate::emulator;
 use crate::firmware::{self, Robot, Variant};
 use crate::image::{self, reachable_panics};
 use crate::step::Step;
+use crate::toolchain::{TARGET, Toolchain};
 use crate::workspace;
 use anyhow::{Context, Result, bail, ensure};
+use chips::{Chip, ChipBudget};
 use clap::Args;
 use cycles::{Cycles, MODEL};
 use serde::{Deserialize, Serialize};
@@ -22,10 +25,13 @@ pub struct Options {
     /// Print one JSON document on stdout, and nothing else.
     #[arg(long)]
     json: bool,
+    /// Also write the table of chips into docs/chips.md.
+    #[arg(long)]
+    document: bool,
 }
 
 /// Limits, from the file.
-#[derive(Clone, Copy, Deserialize, Serialize)]
+#[derive(Clone, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct Budget {
     tick_instructions: u64,
@@ -38,6 +44,8 @@ struct Budget {
     flash_bytes: u64,
     ram_bytes: u64,
     panic_paths: usize,
+    /// By chip.
+    targets: BTreeMap<String, ChipBudget>,
 }
 
 /// The table for compilers that have none of their own.
@@ -90,6 +98,8 @@ pub struct Report {
     flash_bytes: u64,
     ram_bytes: u64,
     panic_paths: Vec<String>,
+    /// By chip.
+    targets: BTreeMap<&'static str, Chip>,
     budget: Budget,
 }
 
@@ -125,19 +135,25 @@ impl Report {
         check("flash_bytes", self.flash_bytes as f64, budget.flash_bytes as f64);
         check("ram_bytes", self.ram_bytes as f64, budget.ram_bytes as f64);
         check("panic_paths", self.panic_paths.len() as f64, budget.panic_paths as f64);
+        broken.extend(chips::broken(&self.targets, &budget.targets));
         broken
     }
 }
 
 /// Measures and prints; an error if something is over its limit.
 pub fn run(options: &Options) -> Result<()> {
-    let arm = ArmToolchain::provide()?;
-    firmware::build(&arm, &Robot::of_the_text()?)?;
+    let arm = Toolchain::provide(TARGET)?;
+    let robot = Robot::of_the_text()?;
+    firmware::build(&arm, &robot)?;
+    firmware::build_for_other_chips(&robot)?;
     let report = measure(&arm)?;
     if options.json {
         println!("{}", serde_json::to_string_pretty(&report)?);
     } else {
         print(&report);
+    }
+    if options.document {
+        document::write(&chips::table(&report.targets))?;
     }
     match report.broken() {
         broken if broken.is_empty() => Ok(()),
@@ -146,8 +162,8 @@ pub fn run(options: &Options) -> Result<()> {
 }
 
 /// Measures the images that have been built with this compiler.
-pub fn measure(arm: &ArmToolchain) -> Result<Report> {
-    let machine = format!("{}, netduinoplus2, -icount shift=4", emulator::provide()?);
+pub fn measure(arm: &Toolchain) -> Result<Report> {
+    let machine = format!("{}, netduinoplus2, -icount shift=4", emulator::provide(emulator::ARM)?);
     let path = workspace::root().join("tests/budgets.toml");
     let text = std::fs::read_to_string(&path)
         .with_context(|| format!("cannot read {}", path.display()))?;
@@ -155,7 +171,8 @@ pub fn measure(arm: &ArmToolchain) -> Result<Report> {
         toml::from_str(&text).with_context(|| format!("{}", path.display()))?;
     let release = arm.release()?;
     let budget = budgets.get(&release).or_else(|| budgets.get(OTHER));
-    let budget = *budget.with_context(|| format!("{} has no table [{OTHER}]", path.display()))?;
+    let budget =
+        budget.with_context(|| format!("{} has no table [{OTHER}]", path.display()))?.clone();
 
     let trace = workspace::root().join("target/firmware/trace.log");
     // What the host does between ticks costs the target nothing.
@@ -179,7 +196,7 @@ pub fn measure(arm: &ArmToolchain) -> Result<Report> {
     );
     let Instructions { mean, max, .. } = measured.instructions;
     Ok(Report {
-        target: crate::arm_toolchain::TARGET,
+        target: TARGET,
         machine,
         compiler: format!("rustc {release}, {arm}"),
         scalar: "f32",
@@ -202,8 +219,14 @@ pub fn measure(arm: &ArmToolchain) -> Result<Report> {
         flash_bytes: image::flash_bytes(&board),
         ram_bytes: image::ram_bytes(&board),
         panic_paths: reachable_panics(&board, "TIM2")?,
+        targets: chips::measure(&robot)?,
         budget,
     })
+}
+
+/// What the documents say otherwise.
+pub fn outdated(report: &Report) -> Result<Option<String>> {
+    document::outdated(&chips::table(&report.targets))
 }
 
 /// As a table.
@@ -272,5 +295,6 @@ pub fn print(report: &Report) {
         println!("  {class:<32}{count:>12}");
     }
     println!("cycles are an estimate: {}", cycles_estimate.model);
+    print!("{}", chips::table(&report.targets));
     println!("over {} ticks, and {} within limits", report.ticks, report.limited_ticks);
 }

@@ -1,14 +1,17 @@
 //! The firmware in the emulator.
 
 use super::robots;
-use crate::arm_toolchain::ArmToolchain;
-use crate::{emulator, firmware, workspace};
+use crate::emulator;
+use crate::toolchain::Toolchain;
+use crate::{firmware, workspace};
 use anyhow::{Context, Result};
 
 /// Builds the images and runs the tests, of the command line too, that need them.
-pub fn run(arm: &ArmToolchain) -> Result<String> {
-    let emulator = emulator::provide()?;
-    firmware::build(arm, &firmware::Robot::of_the_text()?)?;
+pub fn run(arm: &Toolchain) -> Result<String> {
+    let emulator = emulator::provide(emulator::ARM)?;
+    let robot = firmware::Robot::of_the_text()?;
+    firmware::build(arm, &robot)?;
+    firmware::build_for_other_chips(&robot)?;
     workspace::ignored_tests("target").run()?;
     workspace::ignored_tests("command_line").run()?;
     // These build firmware for robots of other projects.

@@ -6,6 +6,7 @@ mod c_library;
 mod doc_tests;
 mod documented;
 mod firmware;
+mod packages;
 mod panic_free;
 mod python;
 mod record;
@@ -13,8 +14,8 @@ mod robots;
 mod target;
 mod tests;
 
-use crate::arm_toolchain::ArmToolchain;
 use crate::instructions::nothing_unused_runs;
+use crate::toolchain::{TARGET, Toolchain};
 use crate::workspace::Built;
 use anyhow::Result;
 use clap::{Args, ValueEnum};
@@ -38,6 +39,8 @@ enum Stage {
     Tests,
     /// The examples in the documentation, on the host.
     DocTests,
+    /// The crates that can be published are whole, and compile with the oldest compiler.
+    Packages,
     /// The report's page and its replay, in a browser.
     Browser,
     /// Robots of other projects, from Python's package index: import, and dynamics against Pinocchio and MuJoCo.
@@ -80,6 +83,9 @@ pub fn run(options: &Options) -> Result<()> {
     if options.wants(Stage::DocTests) {
         record.stage("doc-tests", doc_tests::run);
     }
+    if options.wants(Stage::Packages) {
+        record.stage("packages", packages::run);
+    }
     if options.wants(Stage::Browser) {
         record.stage("browser", browser::run);
     }
@@ -101,7 +107,7 @@ pub fn run(options: &Options) -> Result<()> {
     }
     let on_target = [Stage::Target, Stage::PanicFree, Stage::Firmware, Stage::Budget];
     if on_target.into_iter().any(|stage| options.wants(stage)) {
-        let arm = record.stage("arm-toolchain", ArmToolchain::provide);
+        let arm = record.stage("toolchain", || Toolchain::provide(TARGET));
         if let Some(arm) = &arm {
             if options.wants(Stage::Target) {
                 record.stage("target", || target::run(arm));

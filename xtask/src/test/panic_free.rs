@@ -1,8 +1,8 @@
 //! No panicking path in core, shown on linked images of the target.
 
-use crate::arm_toolchain::ArmToolchain;
 use crate::image::{self, Panicking};
 use crate::step::Step;
+use crate::toolchain::Toolchain;
 use crate::workspace;
 use anyhow::{Context, Result, bail, ensure};
 use std::collections::BTreeMap;
@@ -39,7 +39,7 @@ struct Findings {
 }
 
 /// Links the images and reads them.
-pub fn run(arm: &ArmToolchain) -> Result<String> {
+pub fn run(arm: &Toolchain) -> Result<String> {
     let images = build(arm.cargo("build"), [])?;
     let of = |name: &str| images.get(name).with_context(|| format!("cargo has not built {name}"));
 
@@ -92,7 +92,7 @@ fn read(contents: &[u8]) -> Result<Findings> {
 }
 
 /// What to say of an image that can panic: which functions it reaches, from where.
-fn complain(name: &str, arm: &ArmToolchain) -> Result<String> {
+fn complain(name: &str, arm: &Toolchain) -> Result<String> {
     let images = build(arm.cargo("rustc").args(["--bin", name]), CALLS_APART)?;
     let panicking = &images.get(name).context("cargo has not built it again")?.panicking;
     let mut complaint = String::new();

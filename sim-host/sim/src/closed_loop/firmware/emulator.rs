@@ -1,17 +1,12 @@
 //! The firmware in QEMU, talked to over two named pipes.
 
-use super::{LinkError, Transport};
+use super::{LinkError, Machine, Transport};
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
-
-/// QEMU's program for Arm.
-const QEMU: &str = "qemu-system-arm";
-/// The copy that `cargo xtask firmware` unpacks where it cannot be installed.
-const OWN_COPY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../target/qemu/qemu-system-arm");
 
 /// A running emulator; it ends with this value.
 pub struct Emulator {
@@ -23,13 +18,8 @@ pub struct Emulator {
 }
 
 impl Emulator {
-    /// The program: the workspace's own copy, if there is one, or the machine's.
-    pub fn program() -> &'static str {
-        if Path::new(OWN_COPY).exists() { OWN_COPY } else { QEMU }
-    }
-
-    /// Starts QEMU with an image of the firmware built for emulation, in a new folder of its own
-    /// below `folder`.
+    /// Starts QEMU's machine of the reference board with an image of the firmware built for emulation, in a new
+    /// folder of its own below `folder`.
     ///
     /// # Errors
     /// A [`LinkError`] that says what is missing.
@@ -42,6 +32,19 @@ impl Emulator {
     /// # Errors
     /// As before.
     pub fn start_with(image: &Path, folder: &Path, arguments: &[&str]) -> Result<Self, LinkError> {
+        Self::start_on(&Machine::REFERENCE, image, folder, arguments)
+    }
+
+    /// The same on another machine, which must be the image's.
+    ///
+    /// # Errors
+    /// As before.
+    pub fn start_on(
+        machine: &Machine,
+        image: &Path,
+        folder: &Path,
+        arguments: &[&str],
+    ) -> Result<Self, LinkError> {
         let error = |what: &dyn std::fmt::Display| {
             let what = what.to_string();
             move |source| LinkError::Io { what, source }
@@ -66,17 +69,10 @@ impl Emulator {
         }
         let output = folder.join("output");
         let output = File::create(&output).map_err(error(&output.display()))?;
-        let child = Command::new(Self::program())
-            .args([
-                "-machine",
-                "netduinoplus2",
-                "-nographic",
-                "-monitor",
-                "none",
-                "-serial",
-                "none",
-            ])
-            .args(["-semihosting-config", "enable=on,target=native", "-icount", "shift=4"])
+        let program = machine.program();
+        let child = Command::new(&program)
+            .args(machine.arguments())
+            .args(["-nographic", "-monitor", "none", "-serial", "none"])
             .args(arguments)
             .arg("-kernel")
             .arg(&image)
@@ -85,7 +81,7 @@ impl Emulator {
             .stderr(output.try_clone().map_err(error(&"the emulator's output"))?)
             .stdout(output)
             .spawn()
-            .map_err(error(&format!("{} (`cargo xtask test` installs it)", Self::program())))?;
+            .map_err(error(&format!("{program} (`cargo xtask test` installs it)")))?;
 
         // Opened for both directions a pipe does not wait for its other end.
         let both = |name: &str| {

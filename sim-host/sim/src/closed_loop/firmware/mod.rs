@@ -8,6 +8,7 @@
 mod controller;
 mod emulator;
 mod image;
+mod machine;
 mod robot_module;
 mod sensing;
 mod serial;
@@ -19,6 +20,7 @@ pub use controller::{
 };
 pub use emulator::Emulator;
 pub use image::image_for;
+pub use machine::Machine;
 pub use robot_module::{robot_module, whole_body_module};
 pub use serial::SerialPort;
 pub use target::{LinkError, Target};

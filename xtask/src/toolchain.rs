@@ -1,4 +1,4 @@
-//! A compiler for the target, thumbv7em-none-eabihf (Cortex-M4F).
+//! A compiler for a target: the reference board's, thumbv7em-none-eabihf (Cortex-M4F), or another one.
 //!
 //! Two ways lead to one. The first is rustup's compiled `core` for the target. Where its server
 //! cannot be reached, Debian's packages of the compiler and of its sources do: cargo then compiles
@@ -12,7 +12,7 @@ use std::env;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// The target's triple.
+/// The reference board's triple.
 pub const TARGET: &str = "thumbv7em-none-eabihf";
 
 /// Environment variable that says which way to go: `rustup`, `debian`, or `auto` (the default: one
@@ -29,7 +29,13 @@ const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 const RUSTUP_LIMIT: u64 = 120;
 
 /// A compiler that can compile for the target.
-pub enum ArmToolchain {
+pub struct Toolchain {
+    /// The target's triple.
+    target: String,
+    compiler: Compiler,
+}
+
+enum Compiler {
     /// The compiler that cargo uses anyway, with a compiled `core` beside it.
     Rustup,
     /// Debian's compiler, which compiles `core` from source.
@@ -41,54 +47,67 @@ pub enum ArmToolchain {
     },
 }
 
-impl ArmToolchain {
+impl Toolchain {
     /// Finds a compiler for the target, and installs one where there is none.
-    pub fn provide() -> Result<Self> {
-        let choice = env::var_os(CHOICE).unwrap_or_else(|| "auto".into());
-        match choice.to_str() {
-            Some("rustup") => Self::from_rustup(),
-            Some("debian") => Self::from_debian(),
-            Some("auto") => Self::from_rustup().or_else(|rustup| {
-                eprintln!("{rustup:#}\nSo now Debian's packages are tried.");
-                Self::from_debian().map_err(|debian| neither(&rustup, &debian))
-            }),
-            _ => bail!("{CHOICE} must be rustup, debian or auto, and is {}", choice.display()),
-        }
+    pub fn provide(target: &str) -> Result<Self> {
+        let compiler = Compiler::provide(target)?;
+        Ok(Self { target: target.to_owned(), compiler })
     }
 
     /// A cargo command that compiles for the target with this compiler.
     pub fn cargo(&self, subcommand: &str) -> Step {
-        let cargo = workspace::cargo([subcommand, "--target", TARGET]);
-        match self {
-            Self::Rustup => cargo,
-            Self::Debian { linker, .. } => cargo
+        let cargo = workspace::cargo([subcommand, "--target", &self.target]);
+        match &self.compiler {
+            Compiler::Rustup => cargo,
+            Compiler::Debian { linker, .. } => cargo
                 .env("RUSTC", DEBIAN_RUSTC)
                 .env("RUSTC_BOOTSTRAP", "1")
                 .env("CARGO_UNSTABLE_BUILD_STD", "core")
-                .env("CARGO_TARGET_THUMBV7EM_NONE_EABIHF_LINKER", linker),
+                .env(self.setting("LINKER"), linker),
         }
+    }
+
+    /// The environment variable that is cargo's setting of the target.
+    pub fn setting(&self, name: &str) -> String {
+        let target = self.target.to_uppercase().replace(['-', '.'], "_");
+        format!("CARGO_TARGET_{target}_{name}")
     }
 
     /// # Returns
     /// The compiler's release, such as `1.95.0`.
     pub fn release(&self) -> Result<String> {
-        let version = match self {
-            Self::Rustup => workspace::rustc(["--version"]),
-            Self::Debian { .. } => Step::new(DEBIAN_RUSTC, ["--version"]),
+        let version = match self.compiler {
+            Compiler::Rustup => workspace::rustc(["--version"]),
+            Compiler::Debian { .. } => Step::new(DEBIAN_RUSTC, ["--version"]),
         };
         let said = version.read()?;
         let release = said.split_whitespace().nth(1);
         Ok(release.with_context(|| format!("`{version}` says {said:?}"))?.to_owned())
     }
+}
 
-    fn from_rustup() -> Result<Self> {
-        if !has_compiled_core()? {
+impl Compiler {
+    fn provide(target: &str) -> Result<Self> {
+        let choice = env::var_os(CHOICE).unwrap_or_else(|| "auto".into());
+        match choice.to_str() {
+            Some("rustup") => Self::from_rustup(target),
+            Some("debian") => Self::from_debian(),
+            Some("auto") => Self::from_rustup(target).or_else(|rustup| {
+                eprintln!("{rustup:#}\nSo now Debian's packages are tried.");
+                Self::from_debian().map_err(|debian| neither(target, &rustup, &debian))
+            }),
+            _ => bail!("{CHOICE} must be rustup, debian or auto, and is {}", choice.display()),
+        }
+    }
+
+    fn from_rustup(target: &str) -> Result<Self> {
+        if !has_compiled_core(target)? {
             // Its own word, not its stack, where it fails.
-            let add = Step::new("rustup", ["target", "add", TARGET]).env("RUST_BACKTRACE", "0");
+            let add = Step::new("rustup", ["target", "add", target]).env("RUST_BACKTRACE", "0");
             add.within(RUSTUP_LIMIT).run_silently()?;
             ensure!(
-                has_compiled_core()?,
-                "rustup added {TARGET} to another toolchain than the one that runs cargo"
+                has_compiled_core(target)?,
+                "rustup added {target} to another toolchain than the one that runs cargo"
             );
         }
         Ok(Self::Rustup)
@@ -116,11 +135,11 @@ impl ArmToolchain {
     }
 }
 
-impl fmt::Display for ArmToolchain {
+impl fmt::Display for Toolchain {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Rustup => write!(f, "rustup's core for {TARGET}"),
-            Self::Debian { version, .. } => {
+        match &self.compiler {
+            Compiler::Rustup => write!(f, "rustup's core for {}", self.target),
+            Compiler::Debian { version, .. } => {
                 write!(f, "Debian's compiler {version}, with core from its sources")
             }
         }
@@ -128,8 +147,8 @@ impl fmt::Display for ArmToolchain {
 }
 
 /// Whether cargo's own compiler has a compiled `core` for the target.
-fn has_compiled_core() -> Result<bool> {
-    let folder = workspace::rustc(["--print", "target-libdir", "--target", TARGET]).read()?;
+fn has_compiled_core(target: &str) -> Result<bool> {
+    let folder = workspace::rustc(["--print", "target-libdir", "--target", target]).read()?;
     let Ok(files) = Path::new(&folder).read_dir() else { return Ok(false) };
     Ok(files.flatten().any(|file| file.file_name().to_string_lossy().starts_with("libcore-")))
 }
@@ -165,12 +184,12 @@ fn expect_new_enough(version: &str) -> Result<()> {
 }
 
 /// Both ways are closed: why, and what opens one.
-fn neither(rustup: &anyhow::Error, debian: &anyhow::Error) -> anyhow::Error {
+fn neither(target: &str, rustup: &anyhow::Error, debian: &anyhow::Error) -> anyhow::Error {
     anyhow::anyhow!(
-        "no compiler for {TARGET} is to be had here.\n\
+        "no compiler for {target} is to be had here.\n\
          rustup: {rustup:#}\n\
          Debian: {debian:#}\n\
-         To mend it, run `rustup target add {TARGET}` on a machine that reaches rustup's server, or \
+         To mend it, run `rustup target add {target}` on a machine that reaches rustup's server, or \
          install Debian's packages {} and {} in one version. \
          All that needs no target: `cargo xtask test --skip-target`.",
         PACKAGES[0],
