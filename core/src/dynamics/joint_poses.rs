@@ -55,12 +55,9 @@ pub fn joint_poses<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     if tree.has_reversed {
         reverse_positions(tree, &mut poses.positions);
     }
-    for (joint, (node, turn)) in tree.nodes.iter().zip(&mut poses.turns).enumerate() {
+    turns(tree, &poses.positions, &mut poses.turns);
+    for (joint, node) in tree.nodes.iter().enumerate() {
         let quaternion = match &node.kind {
-            JointKind::Revolute(_) => {
-                *turn = AxisTurn::new(coordinate(node, &poses.positions));
-                continue;
-            }
             JointKind::Spherical => node.position_start,
             JointKind::Floating => node.position_start + 3,
             _ => continue,
@@ -69,6 +66,32 @@ pub fn joint_poses<T: Real, const N: usize, const NQ: usize, const NV: usize>(
             .ok_or(DynamicsFault::QuaternionNotUnit { joint })?;
     }
     Ok(poses)
+}
+
+/// Sines and cosines of all revolute joints. Those of the others are of an angle of zero: one loop
+/// without branches over all is what processors with wide registers do fastest.
+#[inline]
+fn turns<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    positions: &[T; NQ],
+    turns: &mut [AxisTurn<T>; N],
+) {
+    let mut angles = [T::zero(); N];
+    for (angle, node) in angles.iter_mut().zip(&tree.nodes) {
+        if let JointKind::Revolute(_) = node.kind {
+            *angle = coordinate(node, positions);
+        }
+    }
+    if angles.iter().fold(true, |all, angle| all & angle.is_near()) {
+        for (turn, angle) in turns.iter_mut().zip(angles) {
+            let (sine, cosine) = angle.near_sine_cosine();
+            *turn = AxisTurn { cosine, sine };
+        }
+    } else {
+        for (turn, angle) in turns.iter_mut().zip(angles) {
+            *turn = AxisTurn::new(angle);
+        }
+    }
 }
 
 /// Scales the four numbers from `start` on to unit norm, if they are near it.

@@ -13,6 +13,7 @@
 //! Euler's laws (Luh, Walker and Paul 1980): only `ω` is propagated. Gravity enters as an
 //! acceleration `−g` of the inertial frame. Inputs and outputs are the dissertation's.
 
+mod columns;
 mod fault;
 mod forward_dynamics;
 mod forward_kinematics;

@@ -1,6 +1,6 @@
 //! One joint with its outboard body, as the recursions read it.
 
-use super::JointKind;
+use super::{Axis, JointKind};
 use crate::spatial::{RigidInertia, SymmetricMatrix3};
 use nalgebra::{Matrix3, Vector3};
 
@@ -57,6 +57,16 @@ pub(crate) enum InertiaShape {
 }
 
 impl<T: crate::Real> Node<T> {
+    /// The axis of a revolute joint whose frame is parallel to its inboard one at home: what robots
+    /// are made of.
+    #[inline(always)]
+    pub(crate) fn plain_hinge(&self) -> Option<Axis> {
+        match (&self.kind, &self.home_rotation) {
+            (JointKind::Revolute(axis), None) => Some(*axis),
+            _ => None,
+        }
+    }
+
     /// `J v`.
     #[inline(always)]
     pub(crate) fn rotational_product(&self, v: Vector3<T>) -> Vector3<T> {

@@ -26,6 +26,14 @@ pub trait Real: nalgebra::RealField + Copy + sealed::Sealed {
     /// that range. Not finite in, NaN out.
     fn sine_cosine(self) -> (Self, Self);
 
+    /// Whether [`Real::near_sine_cosine`] is what [`Real::sine_cosine`] gives.
+    #[doc(hidden)]
+    fn is_near(self) -> bool;
+
+    /// [`Real::sine_cosine`] without a branch, for loops; of no meaning where not [`Real::is_near`].
+    #[doc(hidden)]
+    fn near_sine_cosine(self) -> (Self, Self);
+
     /// The value as `f64`, for reports.
     fn to_f64(self) -> f64;
 
@@ -46,6 +54,14 @@ impl Real for f32 {
     #[inline]
     fn sine_cosine(self) -> (Self, Self) {
         sine_cosine::f32(self)
+    }
+    #[inline(always)]
+    fn is_near(self) -> bool {
+        sine_cosine::is_near_f32(self)
+    }
+    #[inline(always)]
+    fn near_sine_cosine(self) -> (Self, Self) {
+        sine_cosine::near_f32(self)
     }
     #[inline(always)]
     fn to_f64(self) -> f64 {
@@ -69,6 +85,14 @@ impl Real for f64 {
     #[inline]
     fn sine_cosine(self) -> (Self, Self) {
         sine_cosine::f64(self)
+    }
+    #[inline(always)]
+    fn is_near(self) -> bool {
+        sine_cosine::is_near_f64(self)
+    }
+    #[inline(always)]
+    fn near_sine_cosine(self) -> (Self, Self) {
+        sine_cosine::near_f64(self)
     }
     #[inline(always)]
     fn to_f64(self) -> f64 {

@@ -36,9 +36,19 @@ const ROUND_F32: f32 = 12_582_912.0;
 /// `(sin x, cos x)` in double precision.
 #[inline]
 pub(super) fn f64(x: f64) -> (f64, f64) {
-    if x.abs() > RANGE_F64 || x.is_nan() {
-        return libm::sincos(x);
-    }
+    if is_near_f64(x) { near_f64(x) } else { libm::sincos(x) }
+}
+
+/// Whether `x` lies in the range of [`near_f64`].
+#[inline(always)]
+pub(super) fn is_near_f64(x: f64) -> bool {
+    x.abs() <= RANGE_F64
+}
+
+/// The same within the range; outside, a number or NaN without meaning. No branch, so that a loop
+/// over many angles takes several at once.
+#[inline(always)]
+pub(super) fn near_f64(x: f64) -> (f64, f64) {
     let shifted = x * core::f64::consts::FRAC_2_PI + ROUND_F64;
     let k = shifted - ROUND_F64;
     let quadrant = shifted.to_bits();
@@ -69,9 +79,18 @@ pub(super) fn f64(x: f64) -> (f64, f64) {
 /// `(sin x, cos x)` in single precision.
 #[inline]
 pub(super) fn f32(x: f32) -> (f32, f32) {
-    if x.abs() > RANGE_F32 || x.is_nan() {
-        return libm::sincosf(x);
-    }
+    if is_near_f32(x) { near_f32(x) } else { libm::sincosf(x) }
+}
+
+/// Whether `x` lies in the range of [`near_f32`].
+#[inline(always)]
+pub(super) fn is_near_f32(x: f32) -> bool {
+    x.abs() <= RANGE_F32
+}
+
+/// The same as [`near_f64`] in single precision.
+#[inline(always)]
+pub(super) fn near_f32(x: f32) -> (f32, f32) {
     let shifted = x * core::f32::consts::FRAC_2_PI + ROUND_F32;
     let k = shifted - ROUND_F32;
     let quadrant = shifted.to_bits();
