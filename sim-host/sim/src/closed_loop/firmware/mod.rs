@@ -9,6 +9,7 @@ mod controller;
 mod emulator;
 mod image;
 mod robot_module;
+#[cfg(feature = "serial")]
 mod serial;
 mod target;
 mod transport;
@@ -19,6 +20,7 @@ pub use controller::{
 pub use emulator::Emulator;
 pub use image::image_for;
 pub use robot_module::{robot_module, whole_body_module};
+#[cfg(feature = "serial")]
 pub use serial::SerialPort;
 pub use target::{LinkError, Target};
 pub use transport::Transport;
