@@ -52,10 +52,10 @@ pub fn screenshot(page: &Path, fragment: &str, (width, height): (u32, u32)) -> P
     picture
 }
 
-/// The page as it stands after so many milliseconds of the page's own time.
-pub fn document(page: &Path, milliseconds: u32) -> String {
+/// The page as it stands after so many milliseconds of the page's own time; `fragment` is what follows its address.
+pub fn document(page: &Path, fragment: &str, milliseconds: u32) -> String {
     let time = format!("--virtual-time-budget={milliseconds}");
-    let output = chromium(page, "", &["--dump-dom".into(), time.into()]);
+    let output = chromium(page, fragment, &["--dump-dom".into(), time.into()]);
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 

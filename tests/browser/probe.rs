@@ -13,7 +13,7 @@ impl Findings {
         let probe = page.with_file_name(format!("probe-{width}.html"));
         let text = include_str!("probe.html").replace("WIDTH", &width.to_string());
         std::fs::write(&probe, text).expect("writable");
-        let findings = Self(document(&probe, 5000));
+        let findings = Self(document(&probe, "", 5000));
         assert_eq!(findings.get("done"), "yes");
         findings
     }

@@ -6,6 +6,7 @@
 //! - `c`: the controller as a library for C.
 //! - `budget`: what the firmware takes on its target, against `tests/budgets.toml`.
 //! - `instructions`: instruction counts per call of each algorithm, repeatable to the last digit.
+//! - `page`: the controller and its plant in one page of a browser.
 //! - `peers`: the multibody simulator beside MuJoCo.
 //!
 //! Progress goes to stderr, results to stdout. Exit status: 0 all well, 1 something failed and was
@@ -18,6 +19,7 @@ mod emulator;
 mod firmware;
 mod image;
 mod instructions;
+mod page;
 mod peers;
 mod step;
 mod test;
@@ -48,6 +50,8 @@ enum Chore {
     Budget(budget::Options),
     /// Count the instructions of one call of each algorithm, by callgrind.
     Instructions(instructions::Options),
+    /// Build the page in which a browser runs the controller and its plant.
+    Page,
     /// Time the multibody simulator beside MuJoCo, on the same models in one run.
     Peers(peers::Options),
 }
@@ -59,6 +63,7 @@ fn main() -> ExitCode {
         Chore::C(options) => c_library::run(&options),
         Chore::Budget(options) => budget::run(&options),
         Chore::Instructions(options) => instructions::run(&options),
+        Chore::Page => page::run(),
         Chore::Peers(options) => peers::run(&options),
     };
     match result {

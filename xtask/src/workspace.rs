@@ -51,6 +51,20 @@ pub fn rustc<A: Into<OsString>>(arguments: impl IntoIterator<Item = A>) -> Step 
     Step::new(env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()), arguments)
 }
 
+/// Sees to it that the compiler has the library of a target.
+///
+/// # Errors
+/// What to do where it has not, and cannot be given it.
+pub fn provide_target(target: &str) -> Result<()> {
+    let folder = rustc(["--print", "target-libdir", "--target", target]).read()?;
+    if std::fs::read_dir(folder.trim()).is_ok_and(|mut files| files.next().is_some()) {
+        return Ok(());
+    }
+    Step::new("rustup", ["target", "add", target]).run().with_context(|| {
+        format!("the compiler has no library for {target}, and rustup cannot bring it")
+    })
+}
+
 /// What cargo says of each thing it has built.
 #[derive(Deserialize)]
 struct Message {

@@ -1,14 +1,16 @@
 //! The report's page and its replay, in a browser.
 
 use crate::step::Step;
-use crate::{apt, workspace};
+use crate::workspace::{self, Built};
+use crate::{apt, page};
 use anyhow::{Context, Result};
 
 /// Runs the tests that look at the page in Chromium, without a window.
 pub fn run() -> Result<String> {
     let browser = provide_browser()?;
+    page::build(Built::WithTests)?;
     workspace::ignored_tests("browser").run()?;
-    Ok(format!("report and replay in {browser}"))
+    Ok(format!("report, replay and the page to try it on in {browser}"))
 }
 
 /// # Returns

@@ -3,6 +3,7 @@
 mod csv;
 mod estimate_errors;
 mod event;
+#[cfg(feature = "mcap")]
 mod foxglove;
 mod identity;
 mod mechanism_record;
@@ -15,6 +16,7 @@ mod settling;
 pub use self::csv::write_csv;
 pub use estimate_errors::{EstimateErrors, WorstErrors};
 pub use event::{Event, EventKind};
+#[cfg(feature = "mcap")]
 pub use foxglove::{RecordFailure, write_mcap};
 pub use identity::MotionIdentity;
 pub use mechanism_record::MechanismRecord;

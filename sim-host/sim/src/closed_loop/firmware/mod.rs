@@ -11,6 +11,7 @@ mod image;
 mod machine;
 mod robot_module;
 mod sensing;
+#[cfg(feature = "serial")]
 mod serial;
 mod target;
 mod transport;
@@ -22,6 +23,7 @@ pub use emulator::Emulator;
 pub use image::image_for;
 pub use machine::Machine;
 pub use robot_module::{robot_module, whole_body_module};
+#[cfg(feature = "serial")]
 pub use serial::SerialPort;
 pub use target::{LinkError, Target};
 pub use transport::Transport;
