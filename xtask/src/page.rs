@@ -1,6 +1,6 @@
 //! `cargo xtask page`: the controller and its plant in one page of a browser, which opens from the disk.
 
-use crate::workspace::{self, Built};
+use crate::workspace;
 use anyhow::{Context, Result};
 use base64::prelude::{BASE64_STANDARD, Engine};
 use std::path::{Path, PathBuf};
@@ -10,22 +10,17 @@ const PACKAGE: &str = "surefoot-web";
 
 /// Builds, and says where the page is.
 pub fn run() -> Result<()> {
-    println!("{}", build(Built::Released)?.display());
+    println!("{}", build()?.display());
     Ok(())
 }
 
-/// Builds the module, and puts it with the page's parts into one file. As it ships it is small; built with the tests it
-/// is there in a third of the time, and computes the same.
+/// Builds the module, and puts it with the page's parts into one file.
 ///
 /// # Returns
 /// The path of the file, `target/page/surefoot.html`.
-pub fn build(built: Built) -> Result<PathBuf> {
+pub fn build() -> Result<PathBuf> {
     workspace::provide_target(TARGET)?;
-    let profile = match built {
-        Built::Released => "page",
-        Built::WithTests => "dev",
-    };
-    let cargo = workspace::cargo(["build", "--profile", profile, "--package", PACKAGE]);
+    let cargo = workspace::cargo(["build", "--profile", "page", "--package", PACKAGE]);
     let built = workspace::libraries(cargo.args(["--target", TARGET]))?;
     let module = built
         .iter()

@@ -1,16 +1,23 @@
 //! The report's page and its replay, in a browser.
 
 use crate::step::Step;
-use crate::workspace::{self, Built};
-use crate::{apt, page};
+use crate::{apt, page, workspace};
 use anyhow::{Context, Result};
 
 /// Runs the tests that look at the page in Chromium, without a window.
 pub fn run() -> Result<String> {
     let browser = provide_browser()?;
-    page::build(Built::WithTests)?;
-    workspace::ignored_tests("browser").run()?;
-    Ok(format!("report, replay and the page to try it on in {browser}"))
+    // The page to try the robot on has a stage of its own.
+    workspace::ignored_tests("browser").args(["--skip", "live::"]).run()?;
+    Ok(format!("report and replay in {browser}"))
+}
+
+/// Builds the page in which the controller and its plant run, and tries it.
+pub fn of_page() -> Result<String> {
+    let browser = provide_browser()?;
+    page::build()?;
+    workspace::ignored_tests("browser").args(["live::"]).run()?;
+    Ok(format!("the page to try the robot on in {browser}"))
 }
 
 /// # Returns

@@ -43,6 +43,8 @@ enum Stage {
     Packages,
     /// The report's page and its replay, in a browser.
     Browser,
+    /// The page in which the controller and its plant run, in a browser; only when named.
+    Page,
     /// Robots of other projects, from Python's package index: import, and dynamics against Pinocchio and MuJoCo.
     Robots,
     /// The controller as a library for C: a program of C has the core's bits.
@@ -68,7 +70,8 @@ enum Stage {
 impl Options {
     fn wants(&self, stage: Stage) -> bool {
         let on_target = [Stage::Target, Stage::PanicFree, Stage::Firmware, Stage::Budget];
-        let is_default = self.only.is_empty() && ![Stage::Documented, Stage::Clusters].contains(&stage);
+        let when_named = [Stage::Documented, Stage::Clusters, Stage::Page];
+        let is_default = self.only.is_empty() && !when_named.contains(&stage);
         let is_left_out = self.skip_target && on_target.contains(&stage);
         (is_default || self.only.contains(&stage)) && !is_left_out
     }
@@ -88,6 +91,9 @@ pub fn run(options: &Options) -> Result<()> {
     }
     if options.wants(Stage::Browser) {
         record.stage("browser", browser::run);
+    }
+    if options.wants(Stage::Page) {
+        record.stage("page", browser::of_page);
     }
     if options.wants(Stage::Robots) {
         record.stage("robots", robots::run);
