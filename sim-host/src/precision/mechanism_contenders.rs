@@ -4,7 +4,7 @@ use super::contender::{Contender, Foretell, Start};
 use super::course::{Course, OfBodies, OfMechanism};
 use super::problem::Omission;
 use crate::integrators::{Method, StartError, YOSHIDA_4, YOSHIDA_6, longest_stage};
-use crate::mechanism::{StartFailure, start_bodies, start_within};
+use crate::mechanism::{StartFailure, place_bodies, start_within};
 use crate::multibody::System;
 use crate::scene::{Mechanism, MechanismScene};
 use crate::stability::motion_of;
@@ -19,8 +19,8 @@ pub(super) fn mechanism_contenders(
 ) -> Result<(Vec<Contender>, Vec<Omission>), StartFailure> {
     let (mut contenders, mut omitted) = (Vec::new(), Vec::new());
     let is_natural = !matches!(scene.mechanism, Mechanism::RigidBody { .. });
-    let system = match start_bodies(&scene.mechanism, scene.integrator.step_s) {
-        Ok(simulation) => Some(Arc::new(simulation.system().clone())),
+    let system = match place_bodies(&scene.mechanism) {
+        Ok(placed) => Some(Arc::new(placed.system)),
         Err(StartFailure::NoBodies) => None,
         Err(failure) => return Err(failure),
     };

@@ -264,7 +264,7 @@ impl Loops {
 }
 
 /// Constraints of all loops, at most.
-pub(super) const MOST: usize = 96;
+pub const MOST: usize = 96;
 
 impl Row {
     const NONE: Self = Self {
