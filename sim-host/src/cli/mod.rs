@@ -5,6 +5,7 @@
 //! is kept; 141 the reader of stdout has gone away.
 
 mod advise;
+mod benchmarks;
 mod chart;
 mod controller;
 mod count_steps;

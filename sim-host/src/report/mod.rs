@@ -1,5 +1,6 @@
 //! Pages that need nothing but themselves: the report of a run, with a replay, and the charts.
 
+mod benchmarks_page;
 mod charts_page;
 mod mechanism_page;
 mod page;
@@ -9,6 +10,7 @@ mod robot_page;
 mod stability_chapter;
 mod tables;
 
+pub use benchmarks_page::{PageError, benchmarks_page};
 pub use charts_page::{Chapter, Figure, charts_page};
 pub use mechanism_page::{MechanismReport, mechanism_page};
 pub use page::PageFailure;
