@@ -6,6 +6,7 @@
 //! [`stability`] tells how long steps may be, [`precision`] what accuracy costs, [`parsimony`] what models of a
 //! motion cost, [`experiments`] repeats those of the text, [`certify`] tells how often a controller fails.
 
+pub mod benchmarks;
 pub mod callgrind;
 pub mod certify;
 pub mod chart;

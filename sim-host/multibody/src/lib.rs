@@ -5,6 +5,7 @@
 //!                        ├► rerooted ─► Rerooted: the same bodies, hanging from those that the world holds
 //!                        ├► Simulation: joint coordinates, which play every scene with bodies
 //!                        ├► PlanarSimulation: the same of what stays in a plane; SingleBody: of one free body
+//!                        ├► JointSpace: the same bodies' differential equations, with springs between points and rolling
 //!                        └► ConstrainedSimulation: as the text has it (5.11), (5.13), Alg. 5.1; the oracle
 //! ```
 #![doc = include_str!("../../../docs/your-own-bodies.md")]
@@ -17,10 +18,14 @@ pub mod contact;
 mod gimbal;
 mod joint;
 mod joint_law;
+mod joint_space;
 mod planar;
+mod planar_loops;
+mod point_spring;
 mod recursive;
 mod reduction;
 mod robot;
+mod rolling;
 mod scale;
 mod single_body;
 mod start_check;
@@ -37,10 +42,14 @@ pub use constrained::{ConstrainedSimulation, Correction, Equations, SingularJoin
 pub use gimbal::Gimbal;
 pub use joint::{Joint, JointConstraint, MOST_CONSTRAINTS, Rows};
 pub use joint_law::{CREEP, JointLaw, Stops};
+pub use joint_space::{JointSpace, JointSpaceFault, SettleFault};
 pub use planar::{NotPlanar, PlanarCheckpoint, PlanarError, PlanarSimulation, Plane};
-pub use recursive::{Checkpoint, Simulation, StepForecast};
+pub use planar_loops::with_planar_loops;
+pub use point_spring::{PointSpring, SpringEnd};
+pub use recursive::{Checkpoint, MOST_LOOP_EQUATIONS, Simulation, StepForecast};
 pub use reduction::{Frame, Reduced, Rerooted, Seat, Side, lumped, merged, rerooted};
 pub use robot::{PrincipalAxes, principal_system_of_tree, states_of_tree, system_of_tree};
+pub use rolling::Rolling;
 pub use single_body::{BodyCheckpoint, NotSingle, SingleBody, SingleBodyError};
 pub use striker::{BOX_POINTS, CORNERS, Striker};
 pub use system::{Link, Site, System};

@@ -5,6 +5,8 @@ use super::closure::{ClosingMotors, Closure};
 use super::gimbal::Gimbal;
 use super::joint::{Joint, JointConstraint};
 use super::joint_law::JointLaw;
+use super::point_spring::PointSpring;
+use super::rolling::Rolling;
 use super::striker::Striker;
 use super::system_error::SystemError;
 use crate::contact::{Floor, GroundPlane, Switching};
@@ -43,6 +45,8 @@ pub struct System {
     closures: Vec<Closure>,
     closing_motors: Vec<ClosingMotors>,
     strikers: Vec<Striker>,
+    springs: Vec<PointSpring>,
+    rolling: Vec<Rolling>,
 }
 
 /// What the world is to a joint: a body that stands still.
@@ -74,6 +78,8 @@ impl System {
             closures: Vec::new(),
             closing_motors: Vec::new(),
             strikers: Vec::new(),
+            springs: Vec::new(),
+            rolling: Vec::new(),
         })
     }
 
@@ -210,6 +216,52 @@ impl System {
         Ok(self)
     }
 
+    /// With a spring between two points.
+    ///
+    /// # Errors
+    /// [`SystemError::Spring`].
+    pub fn with_spring(mut self, spring: PointSpring) -> Result<Self, SystemError> {
+        let exists = |link: Option<usize>| link.is_none_or(|link| link < self.links.len());
+        if !(spring.is_valid() && spring.ends.iter().all(|end| exists(end.link))) {
+            return Err(SystemError::Spring { spring: self.springs.len() });
+        }
+        self.springs.push(spring);
+        Ok(self)
+    }
+
+    /// With a wheel or a ball that rolls without slip.
+    ///
+    /// # Errors
+    /// [`SystemError::Rolling`].
+    pub fn with_rolling(mut self, rolling: Rolling) -> Result<Self, SystemError> {
+        if !(rolling.is_valid() && rolling.link < self.links.len()) {
+            return Err(SystemError::Rolling { rolling: self.rolling.len() });
+        }
+        self.rolling.push(rolling);
+        Ok(self)
+    }
+
+    /// The same without gravity.
+    #[must_use]
+    pub fn weightless(mut self) -> Self {
+        self.gravity = 0.0;
+        self
+    }
+
+    /// With these joints closing loops, in place of its own.
+    pub(super) fn with_closures(mut self, closures: Vec<Closure>) -> Self {
+        self.closures = closures;
+        self
+    }
+
+    /// What the variational simulators do not play, if it has any of it.
+    pub fn beyond_variational(&self) -> Option<&'static str> {
+        if !self.springs.is_empty() {
+            return Some("bodies without springs between points");
+        }
+        (!self.rolling.is_empty()).then_some("bodies that do not roll without slip")
+    }
+
     /// Strikers are the last links, so that no other has to be asked whether it is one.
     pub(super) fn check_strikers(&self) -> Result<(), SystemError> {
         let first = self.links.len() - self.strikers.len();
@@ -222,6 +274,16 @@ impl System {
     /// Free bodies that strike others.
     pub fn strikers(&self) -> &[Striker] {
         &self.strikers
+    }
+
+    /// Springs between points.
+    pub fn springs(&self) -> &[PointSpring] {
+        &self.springs
+    }
+
+    /// What rolls without slip.
+    pub fn rolling(&self) -> &[Rolling] {
+        &self.rolling
     }
 
     /// Laws of joints, by link.

@@ -131,6 +131,38 @@ pub enum SystemError {
         /// What it would take.
         what: &'static str,
     },
+    /// A spring's numbers or bodies are none.
+    #[error(
+        "spring {spring}: two different bodies that exist, or one and the world, and finite numbers, zero or more, are needed"
+    )]
+    Spring {
+        /// Which one.
+        spring: usize,
+    },
+    /// What rolls has no radius, or is on no body.
+    #[error(
+        "rolling {rolling}: a body that exists, a radius above zero and axes of unit length are needed"
+    )]
+    Rolling {
+        /// Which one.
+        rolling: usize,
+    },
+    /// What rolls without slip begins off its plane, or slipping.
+    #[error(
+        "rolling {rolling}: the start is off the plane, or slips, by {value:.1e} of the system's size or speed"
+    )]
+    Slips {
+        /// Which one.
+        rolling: usize,
+        /// By how much.
+        value: f64,
+    },
+    /// Bodies that this simulator does not play.
+    #[error("this simulator takes {takes} only")]
+    Beyond {
+        /// What it takes.
+        takes: &'static str,
+    },
     /// A checkpoint of another system, model or step.
     #[error("the checkpoint belongs to another system, to another model of it, or to another step")]
     OtherCheckpoint,

@@ -17,7 +17,8 @@ impl System {
     ) -> f64 {
         let each = self.links().iter().zip(states).zip(rates);
         let of_bodies = each.map(|((link, x), v)| link.body.energy(x, v, self.gravity()));
-        of_bodies.sum::<f64>() + self.rotor_energy(states, rates) + self.energy_in_joints(angle)
+        let held = self.energy_in_joints(angle) + self.energy_in_springs(states);
+        of_bodies.sum::<f64>() + self.rotor_energy(states, rates) + held
     }
 
     /// Kinetic energy, J.
@@ -61,6 +62,20 @@ impl System {
     /// Energy that joints' springs and stops hold, J, with the joint of each link where `angle` tells.
     pub fn energy_in_joints(&self, angle: impl Fn(usize) -> f64) -> f64 {
         self.laws().iter().map(|(link, law)| law.energy(angle(*link))).sum()
+    }
+
+    /// Energy that springs between points hold, J.
+    pub fn energy_in_springs(&self, states: &[BodyState]) -> f64 {
+        let each = self.springs().iter().map(|spring| {
+            let [a, b] = spring.ends.map(|end| {
+                let (x, q) = split(end.link.map_or(&WORLD, |link| &states[link]));
+                let arm = rotated(&q, &end.point);
+                [x[0] + arm[0], x[1] + arm[1], x[2] + arm[2]]
+            });
+            let squares = a.iter().zip(&b).map(|(a, b)| (a - b) * (a - b));
+            spring.energy(squares.sum::<f64>().sqrt())
+        });
+        each.sum()
     }
 
     /// Linear and angular momentum about the world's origin: N·s, N·m·s.

@@ -7,6 +7,7 @@
 mod advise;
 mod certify;
 mod certify_files;
+mod benchmarks;
 mod chart;
 mod controller;
 mod count_steps;

@@ -1,5 +1,6 @@
 //! `surefoot reproduce`
 
+use super::benchmarks::benchmarks;
 use super::report::percent;
 use super::{RUN_FAILED, bad_input, complain, print};
 use crate::experiments::robot_figures::{
@@ -22,12 +23,18 @@ pub struct Options {
     /// What to reproduce: a table, a figure, or all
     #[arg(value_parser = names(), default_value = "all", hide_default_value = true)]
     figure: String,
+    /// Of benchmarks: a row's name, in place of all rows; may be said several times
+    #[arg(long = "row", value_name = "NAME")]
+    pub(super) rows: Vec<String>,
+    /// Of benchmarks: neither advised steps nor other engines, which take minutes
+    #[arg(long)]
+    pub(super) quick: bool,
     /// Where drawings go
     #[arg(long, default_value = "out/reproduce")]
-    out: PathBuf,
+    pub(super) out: PathBuf,
     /// One JSON document instead of tables
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
 }
 
 const FREE_BODY: [&str; 6] =
@@ -43,15 +50,25 @@ const DOUBLE_PENDULUM: [&str; 7] = [
 ];
 const BOX_DROP: [&str; 4] = ["figure-5.3", "figure-5.4", "figure-5.5", "figure-5.6"];
 
+/// Not among all: it is a table of its own, and takes minutes.
+const BENCHMARKS: &str = "benchmarks";
+
 /// Everything that can be asked for.
 fn names() -> PossibleValuesParser {
     let all = FREE_BODY.into_iter().chain(DOUBLE_PENDULUM).chain(EXPERIMENT_1);
     let all = all.chain(EXPERIMENT_2).chain(BOX_DROP);
-    PossibleValuesParser::new(all.chain(["all"]))
+    PossibleValuesParser::new(all.chain([BENCHMARKS, "all"]))
 }
 
 /// Reproduces and compares.
 pub fn reproduce(options: &Options) -> ExitCode {
+    if options.figure == BENCHMARKS {
+        return benchmarks(options);
+    }
+    if options.quick || !options.rows.is_empty() {
+        let message = "--quick and --row: expected with benchmarks only";
+        return bad_input(message, options.json);
+    }
     let wanted = |name: &str| options.figure == "all" || options.figure == name;
     let mut items = Vec::new();
     let made = [

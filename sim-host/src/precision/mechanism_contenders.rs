@@ -7,7 +7,7 @@ use crate::stability::motion_of;
 use std::sync::Arc;
 use surefoot_mechanics::integrators::{Method, StartError, YOSHIDA_4, YOSHIDA_6, longest_stage};
 use surefoot_multibody::System;
-use surefoot_sim::mechanism::{StartFailure, start_bodies, start_within};
+use surefoot_sim::mechanism::{StartFailure, place_bodies, start_within};
 use surefoot_sim::scene::{Mechanism, MechanismScene};
 
 /// All methods that take the mechanism, and those that do not.
@@ -19,8 +19,8 @@ pub(super) fn mechanism_contenders(
 ) -> Result<(Vec<Contender>, Vec<Omission>), StartFailure> {
     let (mut contenders, mut omitted) = (Vec::new(), Vec::new());
     let is_natural = !matches!(scene.mechanism, Mechanism::RigidBody { .. });
-    let system = match start_bodies(&scene.mechanism, scene.integrator.step_s) {
-        Ok(simulation) => Some(Arc::new(simulation.system().clone())),
+    let system = match place_bodies(&scene.mechanism) {
+        Ok(placed) => Some(Arc::new(placed.system)),
         Err(StartFailure::NoBodies) => None,
         Err(failure) => return Err(failure),
     };

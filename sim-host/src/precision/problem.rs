@@ -7,7 +7,7 @@ use super::mechanism_contenders::mechanism_contenders;
 use super::tree_contenders::{at_midpoints, with_constraints};
 use serde::{Deserialize, Serialize};
 use surefoot_multibody::System;
-use surefoot_sim::mechanism::{StartFailure, start_bodies};
+use surefoot_sim::mechanism::{StartFailure, place_bodies};
 use surefoot_sim::scene::{AnyScene, MechanismScene};
 
 /// A method that does not play a problem.
@@ -63,11 +63,11 @@ impl Problem {
     /// A [`StartFailure`] where no motion begins.
     pub fn of_mechanism(scene: &MechanismScene) -> Result<Self, StartFailure> {
         let (mut contenders, mut omitted) = mechanism_contenders(scene)?;
-        let keeps_energy = match start_bodies(&scene.mechanism, scene.integrator.step_s) {
+        let keeps_energy = match place_bodies(&scene.mechanism) {
             Err(StartFailure::NoBodies) => true,
             Err(failure) => return Err(failure),
-            Ok(simulation) => {
-                let system = simulation.system();
+            Ok(placed) => {
+                let system = &placed.system;
                 contenders.extend(at_midpoints(scene, system));
                 match with_constraints(scene, system) {
                     Ok(contender) => contenders.push(contender),
@@ -92,6 +92,7 @@ impl Problem {
 /// Nothing dissipates, and no motor works.
 fn keeps_energy(scene: &MechanismScene, system: &System) -> bool {
     let is_still = scene.mechanism.torques().iter().all(|torque| *torque == 0.0);
-    let is_undamped = system.laws().iter().all(|(_, law)| !law.dissipates());
+    let is_undamped = system.laws().iter().all(|(_, law)| !law.dissipates())
+        && system.springs().iter().all(|spring| spring.damping == 0.0);
     is_still && is_undamped && system.ground().is_none() && system.strikers().is_empty()
 }

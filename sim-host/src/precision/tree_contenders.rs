@@ -26,6 +26,7 @@ pub(super) fn with_constraints(
         && system.strikers().is_empty()
         && system.laws().is_empty()
         && system.closures().is_empty()
+        && system.beyond_variational().is_none()
         && scene.mechanism.torques().iter().all(|torque| *torque == 0.0);
     if !is_plain {
         let reason = "no contact, loops, springs or motors in that form".to_owned();

@@ -80,14 +80,10 @@ fn a_mechanism_that_fails_says_why() {
     let document: Value = serde_json::from_str(&stdout).expect("one document");
     assert_eq!(document["failure"]["kind"], "no-root");
     assert!(document["failure"]["advice"].as_str().is_some_and(|a| a.contains("(tried)")));
-    let cases: [(&[&str], &[&str]); 12] = [
+    let cases: [(&[&str], &[&str]); 11] = [
         (&["chain", "--integrator", "rattle"], &["integrator.name", "variational"]),
         (&["chain", "--links", "0"], &["links", "0", "1 to"]),
-        (
-            &["chain", "--links", "14", "--integrator", "runge-kutta-4"],
-            &["runge-kutta-4", "thirteen bodies"],
-        ),
-        (&["four-bar", "--integrator", "dormand-prince-8"], &["closed loops"]),
+        (&["box-drop", "--integrator", "dormand-prince-8"], &["touch nothing"]),
         (&["box-drop", "--integrator", "yoshida-4"], &["yoshida-4", "touch nothing"]),
         (&["chain", "--accuracy", "1"], &["--accuracy", "between 0 and 1"]),
         (&["rigid-body", "--integrator", "rattle"], &["rattle", "natural systems"]),

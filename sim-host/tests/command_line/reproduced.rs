@@ -40,3 +40,27 @@ fn figures_of_experiment_1_are_reproduced() {
     let svg = std::fs::read_to_string(folder.join(file)).expect("written");
     assert!(svg.contains("Figure 4.9, Experiment 1: desired body force"));
 }
+
+/// A row of public benchmark problems, as the table's JSON has it, and its files.
+#[test]
+fn benchmarks_of_others_are_reproduced() {
+    let folder = folder("reproduce-benchmarks");
+    let row = ["reproduce", "benchmarks", "--quick", "--json", "--row", "a03-andrews"];
+    let (status, stdout, stderr) = said(&surefoot(&folder, &row));
+    assert_eq!(status, Some(0), "{stderr}");
+    let document: Value = serde_json::from_str(&stdout).expect("one document");
+    let row = &document["rows"][0];
+    assert_eq!((&row["name"], &row["meets"]), (&"a03-andrews".into(), &true.into()));
+    for field in ["step_s", "error", "bar"] {
+        assert!(row[field].is_number(), "{row}");
+    }
+    assert!(row["peers"].is_object() && row["measure"].is_string() && row["reference"].is_string());
+    let page = std::fs::read_to_string(folder.join("out/reproduce/benchmarks/benchmarks.html"));
+    assert!(page.expect("written").contains("<svg"));
+    let text = std::fs::read_to_string(folder.join("out/reproduce/benchmarks/a03-andrews.txt"));
+    assert!(text.expect("written").starts_with("time\tK1_x"));
+    let unknown = ["reproduce", "benchmarks", "--row", "a99"];
+    let (status, _, stderr) = said(&surefoot(&folder, &unknown));
+    assert_eq!(status, Some(2));
+    assert!(stderr.contains("a03-andrews"), "{stderr}");
+}

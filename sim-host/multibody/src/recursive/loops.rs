@@ -222,6 +222,10 @@ impl Loops {
             for i in (0..n).filter(|i| !row_is_used[*i]) {
                 let factor = self.schur[i * n + c] / self.schur[r * n + c];
                 self.schur[i * n + c] = factor;
+                // Loops far from one another have nothing in common.
+                if factor == 0.0 {
+                    continue;
+                }
                 for j in (0..n).filter(|j| !column_is_used[*j]) {
                     self.schur[i * n + j] -= factor * self.schur[r * n + j];
                 }
@@ -264,7 +268,7 @@ impl Loops {
 }
 
 /// Constraints of all loops, at most.
-pub(super) const MOST: usize = 96;
+pub const MOST: usize = 96;
 
 impl Row {
     const NONE: Self = Self {

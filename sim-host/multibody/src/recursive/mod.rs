@@ -36,4 +36,5 @@ mod watched;
 
 pub use checkpoint::Checkpoint;
 pub use forecast::StepForecast;
+pub use loops::MOST as MOST_LOOP_EQUATIONS;
 pub use simulation::Simulation;

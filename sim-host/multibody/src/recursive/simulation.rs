@@ -60,6 +60,9 @@ impl Simulation {
         if !(h > 0.0 && h.is_finite()) {
             return Err(SystemError::Step { h });
         }
+        if let Some(takes) = system.beyond_variational() {
+            return Err(SystemError::Beyond { takes });
+        }
         system.check_strikers()?;
         system.check_start(states, rates)?;
         let (nodes, columns) = nodes(&system);

@@ -3,7 +3,7 @@
 use super::joint_motion::{BodyMotion, JointMotion, carried_on, joint_motion};
 use super::named_joint::{JointKind, NamedJoint};
 use super::run::MechanismSample;
-use super::start::{StartFailure, start_bodies};
+use super::start::{StartFailure, place_bodies};
 use crate::robot::biped;
 use crate::scene::{Mechanism, Outline};
 use nalgebra::Vector3;
@@ -62,7 +62,7 @@ impl Layout {
     /// Of a mechanism that can be started.
     ///
     /// # Errors
-    /// As for [`start_bodies`].
+    /// As for [`place_bodies`].
     pub fn of(mechanism: &Mechanism) -> Result<Self, StartFailure> {
         Ok(match mechanism {
             Mechanism::RigidBody { .. } => Self {
@@ -127,8 +127,7 @@ impl Layout {
         bodies: Vec<String>,
         joint_of: impl Fn(&str) -> String,
     ) -> Result<Self, StartFailure> {
-        // A step of any length: only what it is made of is looked at.
-        let system = start_bodies(mechanism, 1e-3)?.system().clone();
+        let system = place_bodies(mechanism)?.system;
         let torques = mechanism.torques();
         let mut joints = Vec::new();
         for (k, (link, body)) in system.links().iter().zip(&bodies).enumerate() {

@@ -1,5 +1,6 @@
 //! Runs of mechanisms that nobody controls (chapter 2), under any method.
 
+mod adrift;
 mod cause;
 mod composed;
 mod joint_motion;
@@ -23,4 +24,4 @@ pub use moving::Moving;
 pub use named_joint::{JointKind, NamedJoint};
 pub use reactions::Reaction;
 pub use run::{Earlier, MechanismRun, MechanismSample, run, run_from, run_model};
-pub use start::{StartFailure, start, start_bodies, start_model, start_within};
+pub use start::{StartFailure, place_bodies, start, start_bodies, start_model, start_within};

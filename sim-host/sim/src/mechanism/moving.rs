@@ -128,6 +128,8 @@ impl<S: Lagrangian<N, C>, const N: usize, const C: usize> Moving for Moved<S, N,
 pub(super) fn is_free(system: &System) -> bool {
     system.gravity() == 0.0
         && system.ground().is_none()
+        && system.rolling().is_empty()
+        && system.springs().iter().all(|spring| spring.ends.iter().all(|end| end.link.is_some()))
         && system.closures().iter().all(|closure| closure.inboard.is_some())
         && system.links().iter().all(|l| l.inboard.is_some() || l.joint.constraints() == 0)
 }
@@ -141,6 +143,7 @@ pub(super) fn kinetic(system: &System, configuration: &[f64], velocity: &[f64]) 
 pub(super) fn dissipates_nothing(system: &System) -> bool {
     system.ground().is_none()
         && system.strikers().is_empty()
+        && system.springs().iter().all(|spring| spring.damping == 0.0)
         && system.laws().iter().all(|(_, law)| !law.dissipates())
 }
 

@@ -1,12 +1,13 @@
 //! From a scene to a mechanism on its way.
 
+use super::adrift::{Adrift, afloat};
 use super::composed::Composed;
 use super::merged::NotMerged;
 use super::model::{MechanismModel, Started, with_model};
 use super::moving::{Moved, Moving};
 use super::tree::OnTree;
 use crate::plant::StepFailure;
-use crate::scene::{BuildError, Link, Mechanism, MechanismScene};
+use crate::scene::{BuildError, Integrator, Link, Mechanism, MechanismScene, PlacedBodies};
 use std::cell::LazyCell;
 use surefoot_mechanics::forecast::{Course, foretell};
 use surefoot_mechanics::integrators::{
@@ -146,20 +147,48 @@ fn bodies_under(
     tolerance: f64,
     wanted: Option<MechanismModel>,
 ) -> Result<Started, StartFailure> {
-    let simulation = start_bodies(&scene.mechanism, scene.integrator.step_s)?;
     let torques = scene.mechanism.torques();
-    let method = scene.integrator.name;
+    let Integrator { name: method, step_s } = scene.integrator;
+    let simulation =
+        || start_bodies(&scene.mechanism, step_s).map_err(|failure| refused(method, failure));
     if method == Method::Variational {
-        return with_model(simulation, &torques, wanted);
+        return with_model(simulation()?, &torques, wanted);
     }
     if let Some(model) = wanted.filter(|model| *model != MechanismModel::Full) {
         return Err(StartFailure::ModelOfVariational { model, method });
     }
     let moving: Box<dyn Moving> = match method {
-        Method::Yoshida4 | Method::Yoshida6 => Box::new(Composed::new(method, simulation)?),
-        _ => Box::new(OnTree::new(method, tolerance, simulation, &torques)?),
+        Method::Yoshida4 | Method::Yoshida6 => match afloat(&place_bodies(&scene.mechanism)?) {
+            Some((drift, PlacedBodies { system, states, rates })) => {
+                let mut simulation = Simulation::new(system, step_s, &states, &rates)?;
+                for (link, torque) in torques.iter().enumerate() {
+                    simulation.set_torque(link, *torque);
+                }
+                let moving = Box::new(Composed::new(method, simulation)?);
+                Box::new(Adrift { drift, moving })
+            }
+            None => Box::new(Composed::new(method, simulation()?)?),
+        },
+        _ => {
+            let placed = place_bodies(&scene.mechanism)?;
+            Box::new(OnTree::new(method, tolerance, placed, step_s, &torques)?)
+        }
     };
     Ok(Started { moving, model: None })
+}
+
+/// What a method does not play, as its own refusal.
+fn refused(method: Method, failure: StartFailure) -> StartFailure {
+    match failure {
+        StartFailure::System(SystemError::Beyond { takes })
+        | StartFailure::Bodies(BuildError::System(SystemError::Beyond { takes })) => {
+            StartError::NotFor { method, takes }.into()
+        }
+        StartFailure::Bodies(BuildError::System(SystemError::TooManyLoops { .. })) => {
+            StartError::NotFor { method, takes: "loops of at most 96 equations" }.into()
+        }
+        other => other,
+    }
 }
 
 /// Bodies and joints, in steps of `h`.
@@ -169,7 +198,21 @@ fn bodies_under(
 pub fn start_bodies(mechanism: &Mechanism, h: f64) -> Result<Simulation, StartFailure> {
     Ok(match mechanism {
         Mechanism::Multibody(bodies) => bodies.start(h)?,
-        Mechanism::Biped(flight) => flight.start(h)?,
+        _ => {
+            let PlacedBodies { system, states, rates } = place_bodies(mechanism)?;
+            Simulation::new(system, h, &states, &rates)?
+        }
+    })
+}
+
+/// Bodies and joints where they are at the start.
+///
+/// # Errors
+/// A [`StartFailure`]: [`StartFailure::NoBodies`] for mechanisms that are no system of bodies and joints.
+pub fn place_bodies(mechanism: &Mechanism) -> Result<PlacedBodies, StartFailure> {
+    Ok(match mechanism {
+        Mechanism::Multibody(bodies) => bodies.placed()?,
+        Mechanism::Biped(flight) => flight.placed()?,
         Mechanism::Chain {
             links,
             mass_kg,
@@ -189,8 +232,8 @@ pub fn start_bodies(mechanism: &Mechanism, h: f64) -> Result<Simulation, StartFa
                 floats: *floats,
                 gravity: *gravity_m_s2,
             };
-            let (states, still) = (chain.bent(bend_deg.to_radians()), vec![[0.0; 7]; *links]);
-            Simulation::new(chain.system()?, h, &states, &still)?
+            let (states, rates) = (chain.bent(bend_deg.to_radians()), vec![[0.0; 7]; *links]);
+            PlacedBodies { system: chain.system()?, states, rates }
         }
         Mechanism::RigidBody { .. } | Mechanism::Pendulum { .. } => {
             return Err(StartFailure::NoBodies);

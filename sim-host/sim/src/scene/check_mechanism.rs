@@ -81,7 +81,7 @@ impl MechanismScene {
             }
             Mechanism::Multibody(bodies) => {
                 self.check_method()?;
-                bodies.start(self.integrator.step_s).map_err(|error| {
+                bodies.check_start(self.integrator.step_s).map_err(|error| {
                     let Misdescribed { field, expected } = match error {
                         BuildError::Field(wrong) => wrong,
                         BuildError::System(error) => Misdescribed::of_system(&error),

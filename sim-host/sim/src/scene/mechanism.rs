@@ -1,6 +1,6 @@
 //! Scenes of chapter 2: a mechanism that nobody controls.
 
-use super::multibody::Multibody;
+use super::multibody::{Multibody, PlacedBodies};
 use super::{Integrator, SceneError};
 use crate::plant::StepFailure;
 use serde::{Deserialize, Serialize};
@@ -200,6 +200,15 @@ impl Flight {
     /// # Errors
     /// [`StepFailure::Dynamics`] for no configuration, [`StepFailure::System`] for a step that cannot be.
     pub fn start(&self, h: f64) -> Result<Simulation, StepFailure> {
+        let PlacedBodies { system, states, rates } = self.placed()?;
+        Ok(Simulation::new(system, h, &states, &rates)?)
+    }
+
+    /// Bodies and joints where they are at the start.
+    ///
+    /// # Errors
+    /// [`StepFailure::Dynamics`] for no configuration.
+    pub fn placed(&self) -> Result<PlacedBodies, StepFailure> {
         let angles = self.left_leg_deg.iter().chain(&self.right_leg_deg);
         let rates = self.left_leg_rates_deg_s.iter().chain(&self.right_leg_rates_deg_s);
         let mut positions = [0.0; 19];
@@ -216,6 +225,6 @@ impl Flight {
         }
         let tree = TREE.with_gravity([0.0, 0.0, -self.gravity_m_s2]);
         let (states, rates) = states_of_tree(&tree, &positions, &velocities)?;
-        Ok(Simulation::new(system_of_tree(&tree)?, h, &states, &rates)?)
+        Ok(PlacedBodies { system: system_of_tree(&tree)?, states, rates })
     }
 }

@@ -28,7 +28,8 @@ pub use hardware::{Acting, JointStops, Sensing, StateSource};
 pub use load::{AnyScene, SceneError, load, nearest_built_in, open, parse};
 pub use mechanism::{Flight, Link, MOST_LINKS, Mechanism, MechanismScene, MotionMatters};
 pub use multibody::{
-    BodyEntry, BuildError, JointEntry, LoopEntry, LoopJoint, Misdescribed, Multibody,
+    BodyEntry, BuildError, JointEntry, LoopEntry, LoopJoint, Misdescribed, Multibody, PlacedBodies,
+    RollingEntry, SpringEntry,
 };
 pub use robot_entry::RobotEntry;
 pub use rung::{LUMPED_DEVIATION_M, Matters, ModelChoice, Rung};

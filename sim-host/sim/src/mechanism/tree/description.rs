@@ -1,25 +1,32 @@
 //! From bodies and joints to a tree of `core`, as it is at the start.
 
 use super::equations::{Law, MOST_LINKS, Parts, TreeModel};
+use crate::scene::PlacedBodies;
 use nalgebra::Vector3;
 use surefoot::model::Link;
 use surefoot::spatial::Quaternion;
-use surefoot_multibody::{BodyState, JointConstraint, JointLaw, Simulation, System};
+use surefoot_multibody::{
+    BodyState, JointConstraint, JointLaw, JointSpace, JointSpaceFault, Simulation, System,
+};
 
 /// The differential equations of a motion that has not begun, with torques held in its joints by link.
 ///
 /// # Errors
 /// What these methods take, where they do not take this.
 pub(super) fn tree_model(
-    simulation: &mut Simulation,
+    placed: PlacedBodies,
     torques: &[f64],
-) -> Result<Box<dyn TreeModel>, &'static str> {
-    let system = simulation.system().clone();
-    check(&system)?;
+) -> Result<Box<dyn TreeModel>, JointSpaceFault> {
+    let PlacedBodies { system, states, rates } = placed;
+    if !is_for_core(&system) {
+        return Ok(Box::new(JointSpace::new(system, &states, &rates, torques)?));
+    }
+    // A step of any length: none is made.
+    let simulation = &mut Simulation::new(system.clone(), 1e-3, &states, &rates)?;
     let is_afloat = system.links().first().is_some_and(|l| floats(&l.joint.constraint));
     let states = simulation.states();
-    let column_rates =
-        simulation.column_rates().map_err(|_| "starts whose inertia is regular")?.to_vec();
+    let not_regular = |_| JointSpaceFault::NotFor("starts whose inertia is regular");
+    let column_rates = simulation.column_rates().map_err(not_regular)?.to_vec();
     let base = if is_afloat { states[0] } else { [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0] };
     let links: Vec<Link> =
         (0..states.len()).map(|k| described(&system, &states, k, &base)).collect();
@@ -53,43 +60,36 @@ pub(super) fn tree_model(
         laws: system.laws().iter().map(law).collect(),
         links,
     };
-    parts.sized(is_afloat).ok_or(TOO_MANY)
+    match parts.sized(is_afloat) {
+        Some(model) => Ok(model),
+        None => Ok(Box::new(JointSpace::new(system, &states, &rates, torques)?)),
+    }
 }
-
-const TOO_MANY: &str = "trees of at most thirteen bodies";
 
 fn floats(constraint: &JointConstraint) -> bool {
     matches!(constraint, JointConstraint::Floating)
 }
 
-/// What a tree of `core` takes.
-fn check(system: &System) -> Result<(), &'static str> {
-    if system.ground().is_some() || !system.strikers().is_empty() {
-        return Err("bodies that touch nothing");
-    }
-    if !system.closures().is_empty() {
-        return Err("trees without closed loops");
-    }
-    if system.links().len() > MOST_LINKS {
-        return Err(TOO_MANY);
-    }
-    if system.laws().iter().any(|(_, law)| law.stops.is_some()) {
-        return Err("joints without stops");
-    }
-    for (k, link) in system.links().iter().enumerate() {
-        let one = matches!(
-            link.joint.constraint,
-            JointConstraint::Revolute { .. } | JointConstraint::Prismatic { .. }
-        );
-        if !(one || k == 0 && floats(&link.joint.constraint)) {
-            return Err("joints of one coordinate, and one floating body at most, the first,");
-        }
-        let [a, b, c] = link.body.inertia;
-        if !(a + b >= c && b + c >= a && c + a >= b) {
-            return Err("inertias that bodies can have");
-        }
-    }
-    Ok(())
+/// Whether a tree of `core` takes it: others are for the equations of any size.
+fn is_for_core(system: &System) -> bool {
+    let of_one = |constraint: &JointConstraint| {
+        matches!(constraint, JointConstraint::Revolute { .. } | JointConstraint::Prismatic { .. })
+    };
+    let joint = |(k, link): (usize, &surefoot_multibody::Link)| {
+        of_one(&link.joint.constraint) || k == 0 && floats(&link.joint.constraint)
+    };
+    system.ground().is_none()
+        && system.strikers().is_empty()
+        && system.closures().is_empty()
+        && system.springs().is_empty()
+        && system.rolling().is_empty()
+        && system.links().len() <= MOST_LINKS
+        && system.laws().iter().all(|(_, law)| law.stops.is_none())
+        && system.links().iter().enumerate().all(joint)
+        && system.links().iter().all(|link| {
+            let [a, b, c] = link.body.inertia;
+            a + b >= c && b + c >= a && c + a >= b
+        })
 }
 
 /// A link as it is at the start, seen from the floating base, if there is one.

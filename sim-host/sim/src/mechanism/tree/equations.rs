@@ -3,10 +3,12 @@
 //! A tree's sizes are known when it is compiled, and each takes seconds to compile. Here are those of the
 //! scenes as shipped and a few between, up to [`MOST_LINKS`] bodies, all on joints of one coordinate, the
 //! first perhaps afloat. Another tree takes the next larger size: the rest of it are bodies that slide on
-//! the world, at rest, and share no number with the tree's own.
+//! the world, at rest, and share no number with the tree's own. What these do not take is for
+//! [`surefoot_multibody::JointSpace`], of any size.
 
 use surefoot::dynamics::{DynamicsFault, forward_dynamics, joint_poses, position_rates};
 use surefoot::model::{Link, Tree};
+use surefoot_mechanics::integrators::StepFailure;
 use surefoot_multibody::{BodyState, JointLaw, states_of_tree};
 
 /// Bodies at most.
@@ -47,8 +49,11 @@ pub(super) trait TreeModel: Send + Sync {
     /// Where the joint of a link with a law is, rad or m.
     fn angle(&self, link: usize, positions: &[f64]) -> f64;
 
-    /// Where among the positions the unit quaternion of a floating body is.
-    fn quaternion(&self) -> Option<usize>;
+    /// Brings positions and velocities to where constraints and quaternions have them, after a step.
+    ///
+    /// # Errors
+    /// Where loops cannot be closed.
+    fn settle(&mut self, positions: &mut [f64], velocities: &mut [f64]) -> Result<(), StepFailure>;
 }
 
 /// Where rates go.
@@ -148,8 +153,13 @@ impl<const N: usize, const NQ: usize, const NV: usize> TreeModel for Sized<N, NQ
         law.map_or(0.0, |law| Self::angle(law, positions))
     }
 
-    fn quaternion(&self) -> Option<usize> {
-        self.is_afloat().then_some(3)
+    fn settle(&mut self, positions: &mut [f64], _: &mut [f64]) -> Result<(), StepFailure> {
+        if self.is_afloat() {
+            let q = &mut positions[3..7];
+            let norm = q.iter().map(|q| q * q).sum::<f64>().sqrt();
+            q.iter_mut().for_each(|q| *q /= norm);
+        }
+        Ok(())
     }
 }
 

@@ -1,6 +1,7 @@
 //! Bodies and joints under methods on the differential equations of joint coordinates, by `core`'s forward
 //! dynamics.
 
+mod any_size;
 mod description;
 mod equations;
 mod motion;

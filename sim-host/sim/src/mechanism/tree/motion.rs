@@ -1,14 +1,16 @@
 //! Methods on the differential equations of a tree, in joint coordinates: what most simulators do.
 
-use super::super::moving::{Moving, dissipates_nothing, kinetic};
+use super::super::moving::{Moving, dissipates_nothing, is_free, kinetic};
+use super::super::start::StartFailure;
 use super::description::tree_model;
 use super::equations::{Rates, TreeModel};
+use crate::scene::PlacedBodies;
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use std::cell::Cell;
 use surefoot::dynamics::DynamicsFault;
 use surefoot_mechanics::integrators::{Method, Progress, StartError, StepError, StepFailure};
 use surefoot_mechanics::newton::NewtonFailure;
-use surefoot_multibody::{BodyState, Simulation, System};
+use surefoot_multibody::{BodyState, JointSpaceFault, System, SystemError};
 
 /// Coordinates and velocities stay below this, or have run away.
 const LARGEST: f64 = 1e100;
@@ -47,21 +49,28 @@ impl OnTree {
     pub fn new(
         method: Method,
         tolerance: f64,
-        mut simulation: Simulation,
+        placed: PlacedBodies,
+        h: f64,
         torques: &[f64],
-    ) -> Result<Self, StartError> {
+    ) -> Result<Self, StartFailure> {
         let not_for = |takes| StartError::NotFor { method, takes };
         let on_tree = match method {
             Method::SemiImplicitEuler => TreeMethod::SemiImplicitEuler,
             Method::RungeKutta4 => TreeMethod::RungeKutta4,
             Method::DormandPrince8 => TreeMethod::DormandPrince8(tolerance),
-            _ => return Err(not_for("the mechanisms of chapter 2")),
+            _ => return Err(not_for("the mechanisms of chapter 2").into()),
         };
-        let model = tree_model(&mut simulation, torques).map_err(not_for)?;
-        let is_free = !simulation.conserved()?.1.is_empty();
+        if !(h > 0.0 && h.is_finite()) {
+            return Err(SystemError::Step { h }.into());
+        }
+        let system = placed.system.clone();
+        let model = tree_model(placed, torques).map_err(|fault| match fault {
+            JointSpaceFault::System(error) => error.into(),
+            JointSpaceFault::NotFor(takes) => StartFailure::from(not_for(takes)),
+        })?;
+        let is_free = is_free(&system);
         let (positions, velocities) = model.start();
-        let progress = Progress::new(simulation.progress().h);
-        let system = simulation.system().clone();
+        let progress = Progress::new(h);
         let is_driven = torques.iter().any(|torque| *torque != 0.0);
         let method = on_tree;
         Ok(Self { model, system, is_free, is_driven, method, positions, velocities, progress })
@@ -160,10 +169,9 @@ impl Moving for OnTree {
             (self.positions, self.velocities) = before;
             return Err(self.progress.error(NewtonFailure::NotFinite));
         }
-        if let Some(first) = self.model.quaternion() {
-            let q = &mut self.positions[first..first + 4];
-            let norm = q.iter().map(|q| q * q).sum::<f64>().sqrt();
-            q.iter_mut().for_each(|q| *q /= norm);
+        if let Err(failure) = self.model.settle(&mut self.positions, &mut self.velocities) {
+            (self.positions, self.velocities) = before;
+            return Err(self.progress.error(failure));
         }
         self.progress.advance();
         Ok(())

@@ -1,17 +1,19 @@
 //! From a description to a motion.
 
-use super::{BuildError, JointEntry, LoopEntry, Misdescribed, Multibody};
+use super::principal::principal;
+use super::{BodyEntry, BuildError, JointEntry, LoopEntry, Misdescribed, Multibody, is_zero};
 use nalgebra::Vector3;
 use surefoot::spatial::Quaternion;
 use surefoot_multibody::{
-    Body, BodyState, Closing, Closure, Joint, JointConstraint, Link, Simulation, Site, System,
+    Body, BodyState, Closing, Closure, Joint, JointConstraint, JointSpace, JointSpaceFault, Link,
+    MOST_LOOP_EQUATIONS, Simulation, Site, System, SystemError, with_planar_loops,
 };
 
 /// Position, orientation and velocities of a body at the start.
 #[derive(Clone, Copy)]
-struct Frame {
+pub(super) struct Frame {
     center: Vector3<f64>,
-    orientation: Quaternion<f64>,
+    pub(super) orientation: Quaternion<f64>,
     velocity: Vector3<f64>,
     omega: Vector3<f64>,
 }
@@ -24,11 +26,48 @@ const WORLD: Frame = Frame {
 };
 
 impl Multibody {
-    /// The motion that begins here, with steps of `h`.
+    /// The motion that begins here, with steps of `h`. Loops of more equations than can be solved are taken in their
+    /// planes, where they have one.
+    ///
+    /// # Errors
+    /// A [`BuildError`] with the field's name; [`SystemError::Beyond`] for what [`Simulation`] does not play.
+    pub fn start(&self, h: f64) -> Result<Simulation, BuildError> {
+        let PlacedBodies { mut system, states, rates } = self.placed()?;
+        let equations: usize = system.closures().iter().map(Closure::constraints).sum();
+        if equations > MOST_LOOP_EQUATIONS {
+            system = with_planar_loops(system, &states);
+        }
+        let mut simulation = Simulation::new(system, h, &states, &rates)?;
+        for (k, entry) in self.bodies.iter().enumerate() {
+            simulation.set_torque(k, entry.torque);
+        }
+        Ok(simulation)
+    }
+
+    /// Checks that some method can start it.
     ///
     /// # Errors
     /// A [`BuildError`] with the field's name.
-    pub fn start(&self, h: f64) -> Result<Simulation, BuildError> {
+    pub fn check_start(&self, h: f64) -> Result<(), BuildError> {
+        match self.start(h) {
+            Err(BuildError::System(
+                SystemError::Beyond { .. } | SystemError::TooManyLoops { .. },
+            )) => {}
+            other => return other.map(|_| ()),
+        }
+        let PlacedBodies { system, states, rates } = self.placed()?;
+        match JointSpace::new(system, &states, &rates, &[]) {
+            Ok(_) => Ok(()),
+            Err(JointSpaceFault::System(error)) => Err(error.into()),
+            Err(JointSpaceFault::NotFor(takes)) => Err(SystemError::Beyond { takes }.into()),
+        }
+    }
+
+    /// Bodies, joints and what acts on them, where they are at the start.
+    ///
+    /// # Errors
+    /// A [`BuildError`] with the field's name.
+    pub fn placed(&self) -> Result<PlacedBodies, BuildError> {
         self.check()?;
         let (mut links, mut frames, mut sites) = (Vec::new(), Vec::<Frame>::new(), Vec::new());
         for (k, entry) in self.bodies.iter().enumerate() {
@@ -48,17 +87,21 @@ impl Multibody {
                 );
             }
             let on = inboard.map_or(WORLD, |i| frames[i]);
-            let mut frame = Frame {
-                center: entry.center_m.into(),
-                orientation: unit(entry.orientation, &field("orientation"))?,
-                ..WORLD
-            };
+            let (inertia, turn) = entry.principal();
+            let given = unit(entry.orientation, &field("orientation"))?;
+            let orientation = turn.map_or(given, |turn| given.product(turn));
+            let mut frame = Frame { center: entry.center_m.into(), orientation, ..WORLD };
             let joint = joint(&entry.joint, &frame, &on);
             set_velocity(&entry.joint, &mut frame, &on);
-            let body = Body { mass: entry.mass_kg, inertia: entry.inertia_kg_m2 };
+            let body = Body { mass: entry.mass_kg, inertia };
             links.push(Link { inboard, joint, body });
             frames.push(frame);
-            sites.extend(entry.contact_points_m.iter().map(|p| Site { link: k, position: *p }));
+            let seen = |p: &[f64; 3]| match turn {
+                Some(turn) => turn.conjugate().rotate((*p).into()).into(),
+                None => *p,
+            };
+            sites
+                .extend(entry.contact_points_m.iter().map(|p| Site { link: k, position: seen(p) }));
         }
         let mut system = System::new(links, self.gravity_m_s2)?;
         for (k, entry) in self.bodies.iter().enumerate() {
@@ -72,18 +115,38 @@ impl Multibody {
         if let Some(floor) = self.floor {
             system = system.on_floor(floor, self.switching, sites)?;
         }
-        let (states, rates): (Vec<BodyState>, Vec<BodyState>) =
-            frames.iter().map(Frame::state_and_rate).unzip();
-        let mut simulation = Simulation::new(system, h, &states, &rates)?;
-        for (k, entry) in self.bodies.iter().enumerate() {
-            simulation.set_torque(k, entry.torque);
+        for (number, entry) in self.springs.iter().enumerate() {
+            let links =
+                self.ends(&entry.between, &format!("mechanism.springs[{number}].between"))?;
+            system = system.with_spring(entry.spring(links, &frames))?;
         }
-        Ok(simulation)
+        for (number, entry) in self.rolling.iter().enumerate() {
+            let field = format!("mechanism.rolling[{number}].body");
+            let link = self.named(&entry.body, &field)?;
+            system = system.with_rolling(entry.rolling(link, &frames))?;
+        }
+        let (states, rates) = frames.iter().map(Frame::state_and_rate).unzip();
+        Ok(PlacedBodies { system, states, rates })
     }
 
     /// The body of a name among the first ones.
     fn index(&self, name: &str, before: usize) -> Option<usize> {
         self.bodies[..before].iter().position(|body| body.name == name)
+    }
+
+    fn named(&self, name: &str, field: &str) -> Result<usize, Misdescribed> {
+        self.index(name, self.bodies.len()).ok_or_else(|| {
+            Misdescribed::new(field.to_owned(), format!("names of bodies, not {name:?}"))
+        })
+    }
+
+    /// Two bodies, or one and the world.
+    fn ends(&self, between: &[String], field: &str) -> Result<[Option<usize>; 2], Misdescribed> {
+        match between {
+            [a] => Ok([Some(self.named(a, field)?), None]),
+            [a, b] => Ok([Some(self.named(a, field)?), Some(self.named(b, field)?)]),
+            _ => Err(Misdescribed::new(field.to_owned(), "one or two names")),
+        }
     }
 
     fn closure(
@@ -92,16 +155,9 @@ impl Multibody {
         entry: &LoopEntry,
         frames: &[Frame],
     ) -> Result<Closure, Misdescribed> {
-        let field = |what: &str| format!("mechanism.loops[{number}].{what}");
-        let find = |name: &String| {
-            self.index(name, self.bodies.len()).ok_or_else(|| {
-                Misdescribed::new(field("between"), format!("names of bodies, not {name:?}"))
-            })
-        };
-        let (outboard, inboard) = match &entry.between[..] {
-            [a] => (find(a)?, None),
-            [a, b] => (find(a)?, Some(find(b)?)),
-            _ => return Err(Misdescribed::new(field("between"), "one or two names")),
+        let field = format!("mechanism.loops[{number}].between");
+        let [Some(outboard), inboard] = self.ends(&entry.between, &field)? else {
+            return Err(Misdescribed::new(field, "one or two names"));
         };
         let on = inboard.map_or(WORLD, |i| frames[i]);
         let joint = joint(&entry.joint.into(), &frames[outboard], &on);
@@ -109,7 +165,35 @@ impl Multibody {
     }
 }
 
+/// Bodies and joints where they are at the start.
+#[derive(Clone, Debug)]
+pub struct PlacedBodies {
+    /// What they are.
+    pub system: System,
+    /// By link.
+    pub states: Vec<BodyState>,
+    /// By link.
+    pub rates: Vec<BodyState>,
+}
+
+impl BodyEntry {
+    /// Principal moments, and the principal axes seen from those of the file, if they are others.
+    pub(super) fn principal(&self) -> ([f64; 3], Option<Quaternion<f64>>) {
+        if is_zero(&self.products_kg_m2) {
+            return (self.inertia_kg_m2, None);
+        }
+        let (moments, turn) = principal(self.inertia_kg_m2, self.products_kg_m2);
+        (moments, Some(turn))
+    }
+}
+
 impl Frame {
+    /// A point of the world as the body sees it.
+    pub(super) fn seen_from(link: Option<usize>, frames: &[Self], point: [f64; 3]) -> [f64; 3] {
+        let frame = link.map_or(WORLD, |link| frames[link]);
+        frame.orientation.conjugate().rotate(Vector3::from(point) - frame.center).into()
+    }
+
     fn state_and_rate(&self) -> (BodyState, BodyState) {
         let both = |x: &Vector3<f64>, [s, a, b, c]: [f64; 4]| [x.x, x.y, x.z, s, a, b, c];
         let q = self.orientation;

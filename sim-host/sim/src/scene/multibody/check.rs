@@ -1,6 +1,6 @@
 //! What the fields of bodies and joints must be, each by its name.
 
-use super::{BodyEntry, JointEntry, Misdescribed, Multibody};
+use super::{BodyEntry, JointEntry, Misdescribed, Multibody, is_zero};
 use crate::scene::inertia::{POSITIVE, impossible};
 use nalgebra::Vector3;
 use surefoot_multibody::JointLaw;
@@ -15,17 +15,17 @@ impl Multibody {
             return Err(Misdescribed::new("mechanism.gravity_m_s2", "a finite number"));
         }
         for (k, body) in self.bodies.iter().enumerate() {
-            let at = |wrong: Misdescribed| Misdescribed {
-                field: format!("mechanism.bodies[{k}].{}", wrong.field),
-                ..wrong
-            };
-            body.check().map_err(at)?;
+            body.check().map_err(|wrong| wrong.within(&format!("mechanism.bodies[{k}]")))?;
         }
         for (k, entry) in self.loops.iter().enumerate() {
-            JointEntry::from(entry.joint).check().map_err(|wrong| Misdescribed {
-                field: format!("mechanism.loops[{k}].{}", wrong.field),
-                ..wrong
-            })?;
+            let checked = JointEntry::from(entry.joint).check();
+            checked.map_err(|wrong| wrong.within(&format!("mechanism.loops[{k}]")))?;
+        }
+        for (k, spring) in self.springs.iter().enumerate() {
+            spring.check().map_err(|wrong| wrong.within(&format!("mechanism.springs[{k}]")))?;
+        }
+        for (k, rolling) in self.rolling.iter().enumerate() {
+            rolling.check().map_err(|wrong| wrong.within(&format!("mechanism.rolling[{k}]")))?;
         }
         let touches = self.bodies.iter().any(|body| !body.contact_points_m.is_empty());
         match &self.floor {
@@ -53,10 +53,15 @@ impl BodyEntry {
         if !(self.mass_kg.is_finite() && self.mass_kg > 0.0) {
             return Err(Misdescribed::new("mass_kg", POSITIVE));
         }
-        if let Some(expected) = impossible(&self.inertia_kg_m2) {
-            return Err(Misdescribed::new("inertia_kg_m2", expected));
-        }
         let finite = |values: &[f64]| values.iter().all(|x| x.is_finite());
+        if !finite(&self.products_kg_m2) {
+            return Err(Misdescribed::new("products_kg_m2", "finite numbers"));
+        }
+        if let Some(expected) = impossible(&self.principal().0) {
+            let field =
+                if is_zero(&self.products_kg_m2) { "inertia_kg_m2" } else { "products_kg_m2" };
+            return Err(Misdescribed::new(field, expected));
+        }
         if !finite(&self.center_m) {
             return Err(Misdescribed::new("center_m", "finite numbers"));
         }

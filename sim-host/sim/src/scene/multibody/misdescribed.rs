@@ -29,6 +29,11 @@ impl Misdescribed {
         Self { field: field.into(), expected: expected.into() }
     }
 
+    /// The same within a table.
+    pub(super) fn within(self, table: &str) -> Self {
+        Self { field: format!("{table}.{}", self.field), ..self }
+    }
+
     /// The field behind a system's error.
     pub(crate) fn of_system(error: &SystemError) -> Self {
         let body = |k: usize, what: &str| format!("mechanism.bodies[{k}]{what}");
@@ -52,7 +57,11 @@ impl Misdescribed {
             SystemError::Site { .. } | SystemError::Length { .. } | SystemError::Striker { .. } => {
                 "mechanism.bodies".to_owned()
             }
-            SystemError::OtherCheckpoint => "mechanism".to_owned(),
+            SystemError::Spring { spring } => format!("mechanism.springs[{spring}]"),
+            SystemError::Rolling { rolling } | SystemError::Slips { rolling, .. } => {
+                format!("mechanism.rolling[{rolling}]")
+            }
+            SystemError::OtherCheckpoint | SystemError::Beyond { .. } => "mechanism".to_owned(),
         };
         Self::new(field, format!("bodies and joints that can move ({error})"))
     }

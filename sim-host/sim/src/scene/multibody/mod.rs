@@ -3,10 +3,14 @@
 //! Everything is described as it is at the start, in world axes: where bodies are, where joints are, which
 //! way axes point. Joints' angles are counted from there.
 
+mod beside;
 mod build;
 mod check;
 mod misdescribed;
+mod principal;
 
+pub use beside::{RollingEntry, SpringEntry};
+pub use build::PlacedBodies;
 pub use misdescribed::{BuildError, Misdescribed};
 
 use serde::de::Error as _;
@@ -25,6 +29,12 @@ pub struct Multibody {
     /// Joints that close loops.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub loops: Vec<LoopEntry>,
+    /// Springs and dampers between two points.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub springs: Vec<SpringEntry>,
+    /// Wheels and balls that roll without slip.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rolling: Vec<RollingEntry>,
     /// What contact points can touch; without it nothing of contact is computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub floor: Option<Floor>,
@@ -44,11 +54,16 @@ pub struct BodyEntry {
     pub inboard: Option<String>,
     /// kg
     pub mass_kg: f64,
-    /// Principal inertias about the centre of mass, kg·m².
+    /// Moments of inertia about the centre of mass, along the axes of `orientation`, kg·m²: principal ones, unless there
+    /// are products.
     pub inertia_kg_m2: [f64; 3],
+    /// Products of inertia xy, xz and yz, as they stand in the matrix, kg·m². The body's frame is then along its
+    /// principal axes.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub products_kg_m2: [f64; 3],
     /// Centre of mass, m.
     pub center_m: [f64; 3],
-    /// Of the principal axes, world from body, scalar first.
+    /// Of these axes, world from body, scalar first.
     #[serde(default = "upright")]
     pub orientation: [f64; 4],
     /// The joint.
@@ -209,6 +224,10 @@ impl From<LoopJoint> for JointEntry {
             }
         }
     }
+}
+
+fn is_zero(products: &[f64; 3]) -> bool {
+    *products == [0.0; 3]
 }
 
 fn upright() -> [f64; 4] {
