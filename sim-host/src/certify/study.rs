@@ -69,6 +69,8 @@ pub enum StudyError {
 
 /// How near to the ends of the unit interval values are tried: samples lie that far out once in 16 million.
 const OUTERMOST: f64 = 6e-8;
+/// Where the others are meanwhile: not in the very middle, where what is symmetric is nothing.
+const MIDST: f64 = 0.4;
 
 impl Definition {
     /// Of a scene and a file, both by their names as users write them.
@@ -144,7 +146,7 @@ fn absolute(document: &mut Table, folder: Option<&Path>) {
 
 impl Study {
     /// Checks that the scene is one of a robot, that what varies are fields of it, and that they may have the values at
-    /// the ends of their ranges, one after the other.
+    /// the ends of their ranges, one after the other with the others near their middle.
     ///
     /// # Errors
     /// A [`StudyError`].
@@ -183,30 +185,26 @@ impl Study {
             let expected = format!("expected 1 to {MOST_COORDINATES}, seeds not counted");
             return Err(refuse(format!("{count} coordinates vary: {expected}")));
         }
-        for parameter in &self.vary.parameters {
+        for (number, parameter) in self.vary.parameters.iter().enumerate() {
             let law = &parameter.distribution;
             let places: Vec<f64> = match law {
                 Distribution::Set(values) => {
                     let count = values.len() as f64;
                     (0..values.len()).map(|k| (k as f64 + 0.5) / count).collect()
                 }
-                _ => vec![OUTERMOST, 0.5, 1.0 - OUTERMOST],
+                _ => vec![OUTERMOST, MIDST, 1.0 - OUTERMOST],
             };
             for place in places {
-                let mut document = self.document.clone();
-                let u = vec![place; law.coordinates().len()];
-                let tried = set(&mut document, parameter, &u, 1);
-                let refused = match tried {
-                    Ok(()) => self.scene_of(&document).err(),
-                    Err(why) => Some(why),
-                };
-                if let Some(why) = refused {
-                    let value = if law.coordinates().is_empty() {
-                        "a seed".to_owned()
-                    } else {
-                        shown(&law.value(&u, 1.0))
+                let at = |c: &Coordinate| if c.parameter == number { place } else { MIDST };
+                let point: Vec<f64> = self.coordinates.iter().map(at).collect();
+                if let Err(StudyError::Sample { message, .. }) = self.scene(0, &point) {
+                    let u = vec![place; law.coordinates().len()];
+                    let value = match law {
+                        Distribution::Seed => "any seed".to_owned(),
+                        _ => shown(&law.value(&u, 1.0)),
                     };
-                    return Err(refuse(format!("vary.\"{}\", at {value}: {why}", parameter.name)));
+                    let name = &parameter.name;
+                    return Err(refuse(format!("vary.\"{name}\", at {value}: {message}")));
                 }
             }
         }

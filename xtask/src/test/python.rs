@@ -67,13 +67,12 @@ fn python(folder: &str, packages: &[&str]) -> Result<PathBuf> {
 /// # Returns
 /// The folder to import it from.
 fn package() -> Result<PathBuf> {
-    let build = workspace::cargo(["build", "--workspace", "--profile", "test", "--lib"]);
-    // No program is made: the C library and what runs on the target are other stages'.
-    let build = LEFT_OUT.iter().fold(build, |build, package| build.args(["--exclude", package]));
-    let built = workspace::libraries(build)?;
+    // An example: with the whole workspace it is built of what the tests are built of.
+    let build = ["build", "--workspace", "--profile", "test", "--example", "python_module"];
+    let built = workspace::libraries(workspace::cargo(build))?;
     let module = built
         .iter()
-        .find(|path| path.file_name().is_some_and(|name| name == "lib_surefoot.so"))
+        .find(|path| path.file_name().is_some_and(|name| name == "libpython_module.so"))
         .context("cargo has built no module for Python")?;
     let (from, to) = (
         workspace::root().join("python/surefoot"),
@@ -91,6 +90,3 @@ fn package() -> Result<PathBuf> {
         .with_context(|| format!("{} cannot be copied", module.display()))?;
     Ok(to)
 }
-
-/// Packages whose libraries the module does not need.
-const LEFT_OUT: [&str; 2] = ["surefoot-c", "surefoot-firmware"];
