@@ -85,3 +85,40 @@ fn every_guard_of_a_deviation_exists() {
     }
     assert!(guards > 20, "the tables were read");
 }
+
+/// Names of the files in `docs` that end so.
+fn documents() -> Vec<String> {
+    let entries = std::fs::read_dir(root().join("docs")).expect("a folder");
+    let names = entries.map(|entry| entry.expect("an entry").file_name());
+    let names = names.map(|name| name.to_string_lossy().into_owned());
+    names.filter(|name| name.ends_with(".md")).collect()
+}
+
+#[test]
+fn every_link_of_a_document_leads_somewhere() {
+    let mut links = 0;
+    let pages = documents().into_iter().map(|name| format!("docs/{name}"));
+    for page in pages.chain(["README.md".to_owned()]) {
+        let text = read(&page);
+        let folder = root().join(&page).parent().expect("a folder").to_owned();
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            let file = link.split('#').next().unwrap_or_default();
+            if file.is_empty() || file.contains("://") {
+                continue;
+            }
+            assert!(folder.join(file).exists(), "{page} links to {link}, which is not there");
+            links += 1;
+        }
+    }
+    assert!(links > 40, "the documents were read: {links} links");
+}
+
+#[test]
+fn the_index_has_every_document_and_the_readme_is_short() {
+    let index = read("docs/README.md");
+    for name in documents().into_iter().filter(|name| name != "README.md") {
+        assert!(index.contains(&format!("]({name})")), "docs/README.md does not have {name}");
+    }
+    let lines = read("README.md").lines().count();
+    assert!(lines <= 150, "README.md has {lines} lines: details belong into docs/");
+}

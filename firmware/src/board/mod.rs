@@ -21,6 +21,8 @@ mod mps2_an500;
 mod mps2_an505;
 #[cfg(feature = "emulation")]
 mod pipes;
+#[cfg(feature = "virt-rv32")]
+mod rv32_interrupts;
 #[cfg(all(feature = "emulation", target_arch = "arm"))]
 mod systick;
 #[cfg(feature = "virt-rv32")]
