@@ -3,8 +3,8 @@
 use crate::workloads::{biped_positions, wave};
 use nalgebra::Vector3;
 use surefoot::model::robots::biped::{FEET, SoleOutline, TREE};
-use surefoot_sim::contact::{Floor, Switching};
-use surefoot_sim::multibody::{
+use surefoot_multibody::contact::{Floor, Switching};
+use surefoot_multibody::{
     BodyState, Chain, ChainJoint, JointLaw, Simulation, Site, System, states_of_tree,
     system_of_tree,
 };

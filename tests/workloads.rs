@@ -16,12 +16,12 @@ use surefoot::estimate::{
 use surefoot::model::Tree;
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Twist};
-use surefoot_sim::closed_loop::{Scalar, controller, plant, run_plant};
-use surefoot_sim::integrators::{Method, start_free_body, start_natural};
-use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
-use surefoot_sim::multibody::{
+use surefoot_mechanics::integrators::{Method, start_free_body, start_natural};
+use surefoot_mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
+use surefoot_multibody::{
     Body, ConstrainedSimulation, Joint, JointConstraint, Link, Simulation, System,
 };
+use surefoot_sim::closed_loop::{Scalar, controller, plant, run_plant};
 use surefoot_sim::plant::Plant;
 use surefoot_sim::scene::{ModelChoice, load};
 

@@ -1,5 +1,5 @@
-//! The `surefoot` command: see [`surefoot_sim::cli`].
+//! The `surefoot` command: see [`surefoot_host::cli`].
 
 fn main() -> std::process::ExitCode {
-    surefoot_sim::cli::main()
+    surefoot_host::cli::main()
 }

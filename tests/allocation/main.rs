@@ -5,9 +5,9 @@
 
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
+use surefoot_multibody::Simulation;
 use surefoot_sim::closed_loop::{Motors, Sensors};
 use surefoot_sim::mechanism::{MechanismModel, start_model};
-use surefoot_sim::multibody::Simulation;
 use surefoot_sim::plant::{Additions, Plant, Variational};
 use surefoot_sim::scene::{Acting, AnyScene, Block, Feet, Mechanism, Sensing, open};
 

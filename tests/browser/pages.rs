@@ -3,12 +3,12 @@
 use crate::chromium::folder;
 use std::path::PathBuf;
 use std::sync::OnceLock;
+use surefoot_host::report::{MechanismReport, Report, mechanism_page, page};
+use surefoot_multibody::contact::Floor;
 use surefoot_sim::closed_loop::{Run, Scalar, controller, run};
-use surefoot_sim::contact::Floor;
 use surefoot_sim::mechanism;
 use surefoot_sim::plant::BlockSample;
 use surefoot_sim::record::{Event, EventKind, MechanismRecord};
-use surefoot_sim::report::{MechanismReport, Report, mechanism_page, page};
 use surefoot_sim::scene::{AnyScene, Block, Feet, Scene, StruckBox, TorquesFrom, load, open};
 
 /// Experiment 1, written once.

@@ -4,8 +4,8 @@
 use serde_json::{Value, json};
 use std::path::Path;
 use std::time::Instant;
-use surefoot_sim::multibody::Simulation;
-use surefoot_sim::precision::{MujocoModel, mujoco_model};
+use surefoot_host::precision::{MujocoModel, mujoco_model};
+use surefoot_multibody::Simulation;
 use surefoot_tests::motions::{MotionStart, biped_in_flight, biped_on_feet, hanging_chain};
 
 fn main() {

@@ -2,9 +2,9 @@
 //! MuJoCo model with its start, the controller's settings, and what this project's plant survives. One JSON document.
 
 use serde_json::{Value, json};
+use surefoot_host::precision::mujoco_model;
 use surefoot_sim::closed_loop::{self, Scalar, controller};
 use surefoot_sim::plant::{Additions, Variational};
-use surefoot_sim::precision::mujoco_model;
 use surefoot_sim::scene::{Feet, Push, Scene, load};
 
 /// Directions of pushes, degrees: 0 along x, 90 along y.

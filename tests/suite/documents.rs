@@ -64,7 +64,7 @@ fn every_name_in_the_notation_exists() {
 #[test]
 fn every_guard_of_a_deviation_exists() {
     let mut files = Vec::new();
-    for folder in ["core/src", "sim-host/src", "sim-host/tests", "tests/suite"] {
+    for folder in ["core/src", "sim-host", "tests/suite"] {
         rust_files(root().join(folder), &mut files);
     }
     let sources: Vec<String> = files.into_iter().map(read).collect();

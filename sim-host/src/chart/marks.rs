@@ -1,7 +1,7 @@
 //! Which events charts mark.
 
 use super::Mark;
-use crate::record::{Event, EventKind};
+use surefoot_sim::record::{Event, EventKind};
 
 /// Marks that stay legible in one chart.
 const MOST_MARKS: usize = 16;

@@ -2,9 +2,11 @@
 
 use super::marks::marks;
 use super::{ChartError, Panel, Series, TimeSeries};
-use crate::mechanism::{JointKind, JointMotion, LayoutKind, MechanismSample, NamedJoint, Reaction};
-use crate::multibody::JointConstraint;
-use crate::record::{Event, MechanismRecord, Record};
+use surefoot_multibody::JointConstraint;
+use surefoot_sim::mechanism::{
+    JointKind, JointMotion, LayoutKind, MechanismSample, NamedJoint, Reaction,
+};
+use surefoot_sim::record::{Event, MechanismRecord, Record};
 
 /// Curves that a legend has room for.
 const MOST_CURVES: usize = 12;

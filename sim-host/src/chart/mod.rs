@@ -17,6 +17,6 @@ pub use log_log::{LogLogChart, MarkedCurve};
 pub use marks::marks;
 pub use mechanism_figures::{MECHANISM_FIGURES, MechanismFigure};
 pub use run_figures::{RUN_FIGURES, RunFigure};
-pub use style::{ChartError, OKABE_ITO};
+pub use style::ChartError;
 pub use time_series::{Mark, Panel, Series, TimeSeries};
 pub use xy::{XyChart, XySeries};

@@ -2,8 +2,8 @@
 
 use super::marks::marks;
 use super::{ChartError, Panel, Series, TimeSeries};
-use crate::record::{Event, Sample};
-use crate::robot::Robot;
+use surefoot_sim::record::{Event, Sample};
+use surefoot_sim::robot::Robot;
 
 /// A figure that can be drawn of any run.
 #[derive(Clone, Copy, Debug)]

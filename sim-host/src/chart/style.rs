@@ -1,9 +1,10 @@
 //! How all charts look.
 
-use crate::written::write_text;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use std::path::Path;
+use surefoot_sim::picture::OKABE_ITO;
+use surefoot_sim::written::write_text;
 
 /// A chart could not be drawn or written.
 #[derive(Debug, thiserror::Error)]
@@ -26,12 +27,7 @@ pub(super) fn write(path: &Path, svg: &str) -> Result<(), ChartError> {
 
 pub(super) type Painted = Result<(), Box<dyn std::error::Error>>;
 
-/// Okabe and Ito's colours, which people with any common colour vision can tell apart, darkest
-/// first; curves beyond six repeat them dashed.
-pub const OKABE_ITO: [(u8, u8, u8); 6] =
-    [(0, 0, 0), (213, 94, 0), (0, 114, 178), (0, 158, 115), (204, 121, 167), (230, 159, 0)];
-
-/// The same for the backend.
+/// The palette of all pictures, for the backend.
 pub(super) const COLORS: [RGBColor; 6] = {
     let mut colors = [RGBColor(0, 0, 0); 6];
     let mut i = 0;

@@ -5,12 +5,12 @@ use super::{RUN_FAILED, bad_input, complain, say};
 use crate::precision::{
     Advice, AdviceError, Among, Choice, Effort, Problem, STEP_MARGIN, advise as advised, cost, step,
 };
-use crate::scene::{AnyScene, open};
 use clap::Parser;
 use indicatif::ProgressBar;
 use std::fmt::Write;
 use std::process::ExitCode;
 use std::time::Duration;
+use surefoot_sim::scene::{AnyScene, open};
 
 /// Options of `advise`.
 #[derive(Debug, Parser)]

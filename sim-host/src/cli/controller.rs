@@ -1,13 +1,13 @@
 //! Where the controller runs, and in which precision.
 
-use crate::closed_loop::firmware::{
-    Emulator, LinkError, SerialPort, firmware_controller, image_for,
-};
-use crate::closed_loop::{self, Controller, Scalar};
-use crate::scene::{Disturbance, Scene};
 use clap::Args;
 use serde::Serialize;
 use std::path::PathBuf;
+use surefoot_sim::closed_loop::firmware::{
+    Emulator, LinkError, SerialPort, firmware_controller, image_for,
+};
+use surefoot_sim::closed_loop::{self, Controller, Scalar};
+use surefoot_sim::scene::{Disturbance, Scene};
 
 /// Options of `run` about the controller.
 #[derive(Debug, Args)]

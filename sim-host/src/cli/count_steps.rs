@@ -2,10 +2,10 @@
 
 use super::{RUN_FAILED, bad_input, complain};
 use crate::parsimony::{MechanismRung, PlayFailure, Played, Rung};
-use crate::scene::{AnyScene, open};
 use clap::{Parser, ValueEnum};
 use std::num::NonZeroUsize;
 use std::process::ExitCode;
+use surefoot_sim::scene::{AnyScene, open};
 
 /// Options of `count-steps`.
 #[derive(Debug, Parser)]

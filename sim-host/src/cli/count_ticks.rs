@@ -2,10 +2,10 @@
 
 use super::bad_input;
 use crate::precision::{ControllerForm, pass, read_states};
-use crate::scene::load;
 use clap::Parser;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use surefoot_sim::scene::load;
 
 /// Options of `count-ticks`.
 #[derive(Debug, Parser)]

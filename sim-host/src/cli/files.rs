@@ -1,9 +1,9 @@
 //! The files that a run leaves.
 
-use crate::record::{Event, Record, SavedRun, write_csv, write_mcap};
-use crate::written::{write_text, write_whole};
 use std::fs::File;
 use std::path::{Path, PathBuf};
+use surefoot_sim::record::{Event, Record, SavedRun, write_csv, write_mcap};
+use surefoot_sim::written::{write_text, write_whole};
 
 /// A figure: the name of its file without the ending, and SVG.
 pub(super) type Drawing = (&'static str, String);

@@ -1,10 +1,6 @@
 //! `surefoot import`: a URDF or MJCF file to a robot of names, and to const data for firmware.
 
 use super::{BAD_INPUT, RUN_FAILED, complain, say};
-use crate::closed_loop::firmware::robot_module;
-use crate::robot::{Robot as SceneRobot, stand_scene};
-use crate::scene::load;
-use crate::written::write_text;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -13,6 +9,10 @@ use surefoot_robots::{
     BaseChoice, ImportError, Imported, Options as ImportOptions, Robot, Sole, import, legs,
     robot_rs, robot_toml,
 };
+use surefoot_sim::closed_loop::firmware::robot_module;
+use surefoot_sim::robot::{Robot as SceneRobot, stand_scene};
+use surefoot_sim::scene::load;
+use surefoot_sim::written::write_text;
 
 /// Of what file, how, and where to.
 #[derive(Debug, Args)]

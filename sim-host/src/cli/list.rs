@@ -1,11 +1,11 @@
 //! `surefoot list`
 
 use super::{bad_input, say};
-use crate::integrators::Method;
-use crate::scene::{AnyScene, built_in};
 use clap::Parser;
 use std::fmt::Write;
 use std::process::ExitCode;
+use surefoot_mechanics::integrators::Method;
+use surefoot_sim::scene::{AnyScene, built_in};
 
 /// Options of `list`.
 #[derive(Debug, Parser)]

@@ -1,8 +1,8 @@
 //! `--model`: one word for robots and for mechanisms.
 
-use crate::mechanism::MechanismModel;
-use crate::scene::ModelChoice;
 use clap::ValueEnum;
+use surefoot_sim::mechanism::MechanismModel;
+use surefoot_sim::scene::ModelChoice;
 
 /// How much is modelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,11 +1,11 @@
 //! Which method and step a run takes, and why: those of the command line, else the recommended ones.
 
 use super::run::Options;
-use crate::mechanism::start;
 use crate::precision::{Advice, Among, Effort, Problem, STEP_MARGIN, advise};
-use crate::scene::{AnyScene, Integrator, MechanismScene, Scene};
 use indicatif::ProgressBar;
 use std::time::Duration;
+use surefoot_sim::mechanism::start;
+use surefoot_sim::scene::{AnyScene, Integrator, MechanismScene, Scene};
 
 /// The accuracy of a scene that says nothing about it.
 pub(super) const ACCURACY: f64 = 1e-4;

@@ -1,15 +1,15 @@
 //! What `run` says: as text for people, as JSON for programs.
 
 use super::controller::Place;
-use crate::closed_loop::{
-    Costs, CutTorques, Gait, Outcome, Peaks, Run, Scalar, WorstLimit, rest_error,
-};
 use crate::experiments::{printed_figures, reading};
-use crate::record::{Sample, WorstErrors};
-use crate::scene::{Scene, TorquesFrom};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::PathBuf;
+use surefoot_sim::closed_loop::{
+    Costs, CutTorques, Gait, Outcome, Peaks, Run, Scalar, WorstLimit, rest_error,
+};
+use surefoot_sim::record::{Sample, WorstErrors};
+use surefoot_sim::scene::{Scene, TorquesFrom};
 
 /// All that a report is made from.
 pub struct Report<'a> {
@@ -56,7 +56,7 @@ pub(super) fn other_end(wanted_s: f64, reached_s: f64, h: f64, what: &str) -> Op
 
 /// Unknowns of a step: velocities, and constraints beside the tree; none where there is no plant.
 fn unknowns(scene: &Scene) -> Option<usize> {
-    crate::closed_loop::plant(scene).ok().map(|plant| plant.unknowns())
+    surefoot_sim::closed_loop::plant(scene).ok().map(|plant| plant.unknowns())
 }
 
 /// The summary.

@@ -6,7 +6,6 @@ use crate::experiments::robot_figures::{
     EXPERIMENT_1, EXPERIMENT_2, READING, RobotFigure, experiment_1_figures, experiment_2_figures,
 };
 use crate::experiments::{Comparison, Figure, box_drop, double_pendulum, free_body};
-use crate::written::write_text;
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
 use indicatif::ProgressBar;
@@ -15,6 +14,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
+use surefoot_sim::written::write_text;
 
 /// Options of `reproduce`.
 #[derive(Debug, Parser)]

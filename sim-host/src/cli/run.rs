@@ -8,17 +8,17 @@ use super::report::{self, Report};
 use super::run_mechanism::run_mechanism;
 use super::{RUN_FAILED, bad_input, complain, recommended, say};
 use crate::chart::{RUN_FIGURES, RunFigure};
-use crate::closed_loop::{self, Run};
-use crate::follow::Until;
-use crate::integrators::Method;
-use crate::picture::moving;
-use crate::record::{MotionIdentity, RobotRecord, SavedRun};
 use crate::report::page;
-use crate::scene::{AnyScene, Feet, Scene, StateSource, TorquesFrom, open};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use surefoot_mechanics::integrators::Method;
+use surefoot_sim::closed_loop::{self, Run};
+use surefoot_sim::follow::Until;
+use surefoot_sim::picture::moving;
+use surefoot_sim::record::{MotionIdentity, RobotRecord, SavedRun};
+use surefoot_sim::scene::{AnyScene, Feet, Scene, StateSource, TorquesFrom, open};
 
 /// Options of `run`.
 #[derive(Debug, Parser)]

@@ -6,17 +6,17 @@ use super::report::{SHOWN_EVENTS, other_end};
 use super::run::{Options, bar, ended, warn};
 use super::{bad_input, interrupt, recommended, say};
 use crate::chart::{MECHANISM_FIGURES, MechanismFigure};
-use crate::follow::Until;
-use crate::integrators::Method;
-use crate::mechanism::{Cause, ChosenModel, MechanismRun, run_model};
-use crate::record::MechanismRecord;
 use crate::report::{MechanismReport, mechanism_page};
-use crate::scene::{Mechanism, MechanismScene};
-use crate::stability::FailureKind;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use surefoot_mechanics::forecast::FailureKind;
+use surefoot_mechanics::integrators::Method;
+use surefoot_sim::follow::Until;
+use surefoot_sim::mechanism::{Cause, ChosenModel, MechanismRun, run_model};
+use surefoot_sim::record::MechanismRecord;
+use surefoot_sim::scene::{Mechanism, MechanismScene};
 
 /// Runs the scene and reports.
 pub(super) fn run_mechanism(scene: MechanismScene, options: &Options) -> ExitCode {

@@ -1,9 +1,9 @@
 //! `surefoot show`
 
 use super::{bad_input, say};
-use crate::scene::{AnyScene, BUILT_IN, BuiltIn, nearest_built_in, parse};
 use clap::Parser;
 use std::process::ExitCode;
+use surefoot_sim::scene::{AnyScene, BUILT_IN, BuiltIn, nearest_built_in, parse};
 
 /// Options of `show`.
 #[derive(Debug, Parser)]

@@ -3,11 +3,11 @@
 use super::comparison::{Asked, Comparison};
 use super::figure::Figure;
 use crate::chart::{XyChart, XySeries};
-use crate::contact::{ContactState, Switching};
-use crate::integrators::StepError;
-use crate::mechanism::StartFailure;
-use crate::multibody::{BodyState, Simulation};
-use crate::scene::{AnyScene, Mechanism, SceneError, open};
+use surefoot_mechanics::integrators::StepError;
+use surefoot_multibody::contact::{ContactState, Switching};
+use surefoot_multibody::{BodyState, Simulation};
+use surefoot_sim::mechanism::StartFailure;
+use surefoot_sim::scene::{AnyScene, Mechanism, SceneError, open};
 
 /// How §5.3 is read.
 pub const READING: &str = "friction 0.40 (not printed; 0.37 to 0.445 fit); states, positions and velocities \

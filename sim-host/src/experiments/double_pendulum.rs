@@ -9,10 +9,10 @@ use super::comparison::{Asked, Comparison};
 use super::figure::{Figure, against_step};
 use super::samples::{SAMPLES, Sampled, mean_distance, sampled_every, slope_of};
 use crate::chart::{XyChart, XySeries};
-use crate::integrators::{EnergyMomentum, Form, Integrator, Shake, StepError};
-use crate::mechanics::Lagrangian;
-use crate::mechanics::systems::DoubleSphericalPendulum;
 use std::time::Instant;
+use surefoot_mechanics::Lagrangian;
+use surefoot_mechanics::integrators::{EnergyMomentum, Form, Integrator, Shake, StepError};
+use surefoot_mechanics::systems::DoubleSphericalPendulum;
 
 /// How the table is read.
 pub const READING: &str = "301 samples, every 0.1 s from 0 to 30 s; against the energy-momentum run of \

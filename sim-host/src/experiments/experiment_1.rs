@@ -6,8 +6,8 @@
 
 use super::comparison::{Asked, Comparison};
 use super::foot_events::longest_apart;
-use crate::closed_loop::{Peaks, Run};
-use crate::record::EventKind;
+use surefoot_sim::closed_loop::{Peaks, Run};
+use surefoot_sim::record::EventKind;
 
 /// Index of the right knee among the joints.
 const RIGHT_KNEE: usize = 9;

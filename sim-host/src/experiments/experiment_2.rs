@@ -2,8 +2,8 @@
 
 use super::comparison::{Asked, Comparison};
 use super::foot_events::{first, longest_apart};
-use crate::closed_loop::Run;
-use crate::record::EventKind;
+use surefoot_sim::closed_loop::Run;
+use surefoot_sim::record::EventKind;
 
 /// Printed figures of Experiment 2 beside those of a run; empty for a run without samples.
 ///

@@ -1,7 +1,7 @@
 //! What feet did, from a run's events.
 
-use crate::closed_loop::Run;
-use crate::record::EventKind;
+use surefoot_sim::closed_loop::Run;
+use surefoot_sim::record::EventKind;
 
 /// The longest interval (s) that begins with one kind of event at a foot and ends with another: a heel or
 /// toe that chatters has many, and the text speaks of one. An interval that nothing ends lasts to the end
@@ -42,9 +42,9 @@ pub(super) fn first(run: &Run, kind: EventKind) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::closed_loop::{Outcome, Run};
-    use crate::record::Event;
     use EventKind::{HeelDown, HeelOff, Strike};
+    use surefoot_sim::closed_loop::{Outcome, Run};
+    use surefoot_sim::record::Event;
 
     fn run(events: &[(f64, EventKind, &str)]) -> Run {
         let event = |(time_s, kind, place): &(f64, EventKind, &str)| Event {
@@ -67,7 +67,7 @@ mod tests {
             costs: None,
             limits: None,
             gait: None,
-            cut_torques: crate::closed_loop::CutTorques::default(),
+            cut_torques: surefoot_sim::closed_loop::CutTorques::default(),
             stop: None,
             estimate: None,
         }

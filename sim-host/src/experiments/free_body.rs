@@ -10,9 +10,9 @@ use super::comparison::{Asked, Comparison};
 use super::figure::{Figure, against_step};
 use super::samples::{SAMPLES, Sampled, mean_distance, sampled_every, slope_of};
 use crate::chart::{XyChart, XySeries};
-use crate::integrators::{Integrator, StepError, Variational};
-use crate::mechanics::systems::FreeRigidBody;
 use std::time::Instant;
+use surefoot_mechanics::integrators::{Integrator, StepError, Variational};
+use surefoot_mechanics::systems::FreeRigidBody;
 
 /// How the table is read.
 pub const READING: &str = "301 samples, every 0.1 s from 0 to 30 s; energy and momentum against the \

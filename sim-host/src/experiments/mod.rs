@@ -16,8 +16,8 @@ pub use experiment_1::experiment_1;
 pub use experiment_2::experiment_2;
 pub use figure::Figure;
 
-use crate::closed_loop::Run;
-use crate::scene::TorquesFrom;
+use surefoot_sim::closed_loop::Run;
+use surefoot_sim::scene::TorquesFrom;
 
 /// The printed figures of a scene, if the text has it.
 pub fn printed_figures(scene: &str, run: &Run) -> Vec<Comparison> {

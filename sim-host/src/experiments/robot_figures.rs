@@ -2,12 +2,12 @@
 
 use super::{Comparison, experiment_1, experiment_2};
 use crate::chart::{ChartError, RUN_FIGURES};
-use crate::closed_loop::{Run, Scalar, controller, run};
-use crate::picture::still;
-use crate::record::RobotRecord;
-use crate::robot::biped;
-use crate::scene::{Outline, SceneError, TorquesFrom, load};
 use surefoot::dynamics::DynamicsFault;
+use surefoot_sim::closed_loop::{Run, Scalar, controller, run};
+use surefoot_sim::picture::still;
+use surefoot_sim::record::RobotRecord;
+use surefoot_sim::robot::biped;
+use surefoot_sim::scene::{Outline, SceneError, TorquesFrom, load};
 
 /// How figures 4.3 to 4.19 are read.
 pub const READING: &str = "torques from touch-down (what the text prints of the first instant fits this \
@@ -97,7 +97,7 @@ pub fn experiment_2_figures() -> Result<Vec<RobotFigure>, RobotFigureFailure> {
     Ok(figures)
 }
 
-fn made(name: &str) -> Result<(crate::scene::Scene, Run), RobotFigureFailure> {
+fn made(name: &str) -> Result<(surefoot_sim::scene::Scene, Run), RobotFigureFailure> {
     let mut scene = load(name)?;
     scene.controller.torques_from = TorquesFrom::TouchDown;
     let run = run(&scene, controller(&scene, Scalar::F64).as_mut(), &mut |_| {});

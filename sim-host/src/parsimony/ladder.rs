@@ -4,11 +4,11 @@ use super::play::{PlayFailure, Played, Rung};
 use super::saving::Saving;
 use super::step_count::count;
 use crate::callgrind::word;
-use crate::scene::{self, Scene};
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::num::NonZeroUsize;
 use surefoot::spatial::Quaternion;
+use surefoot_sim::scene::{self, Scene};
 
 /// A rung's figures.
 #[derive(Clone, Debug, Serialize)]

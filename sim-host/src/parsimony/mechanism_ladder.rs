@@ -4,12 +4,14 @@ use super::ladder::{RUNS, apart};
 use super::play::{PlayFailure, Played, fly};
 use super::step_count::count;
 use crate::callgrind::word;
-use crate::mechanism::{ChosenModel, MechanismModel, Moving, Started, start_bodies, start_model};
-use crate::multibody::ConstrainedSimulation;
-use crate::scene::MechanismScene;
 use serde::Serialize;
 use std::cell::RefCell;
 use std::num::NonZeroUsize;
+use surefoot_multibody::ConstrainedSimulation;
+use surefoot_sim::mechanism::{
+    ChosenModel, MechanismModel, Moving, Started, start_bodies, start_model,
+};
+use surefoot_sim::scene::MechanismScene;
 
 /// A model of bodies and joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
@@ -139,7 +141,9 @@ fn has_constraints_only(scene: &MechanismScene) -> bool {
     let Ok(full) = start_bodies(&scene.mechanism, scene.integrator.step_s) else { return false };
     let system = full.system();
     let is_driven = match &scene.mechanism {
-        crate::scene::Mechanism::Multibody(all) => all.bodies.iter().any(|body| body.torque != 0.0),
+        surefoot_sim::scene::Mechanism::Multibody(all) => {
+            all.bodies.iter().any(|body| body.torque != 0.0)
+        }
         _ => false,
     };
     !is_driven
@@ -161,7 +165,7 @@ pub fn climb_mechanism(
 ) -> Result<MechanismLadder, PlayFailure> {
     let full = start_bodies(&scene.mechanism, scene.integrator.step_s)?;
     let Started { model, .. } = start_model(scene, None)?;
-    let chosen = model.ok_or(crate::mechanism::StartFailure::OneModel)?;
+    let chosen = model.ok_or(surefoot_sim::mechanism::StartFailure::OneModel)?;
     let mut scene = scene.clone();
     scene.duration_s = scene.duration_s.min(PLAYED_S);
     let reference = quickest(MechanismRung::JointCoordinates, &scene)?;

@@ -1,17 +1,17 @@
 //! One motion on one rung.
 
-use crate::closed_loop::{self, Scalar};
-use crate::contact::ContactState;
-use crate::integrators::{Progress, StepError};
-use crate::mechanism::StartFailure;
-use crate::multibody::{ConstrainedSimulation, Simulation, SystemError, lumped};
-use crate::plant::{Observation, PerPoint, Plant, PlantState, RobotModel, StepFailure};
-use crate::robot::{SMALL_BODIES, biped};
-use crate::scene::{AnyScene, Feet, ModelChoice, Outline, Scene, SceneError, open};
 use serde::Serialize;
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 use surefoot::spatial::Wrench;
+use surefoot_mechanics::integrators::{Progress, StepError};
+use surefoot_multibody::contact::ContactState;
+use surefoot_multibody::{ConstrainedSimulation, Simulation, SystemError, lumped};
+use surefoot_sim::closed_loop::{self, Scalar};
+use surefoot_sim::mechanism::StartFailure;
+use surefoot_sim::plant::{Observation, PerPoint, Plant, PlantState, RobotModel, StepFailure};
+use surefoot_sim::robot::{SMALL_BODIES, biped};
+use surefoot_sim::scene::{AnyScene, Feet, ModelChoice, Outline, Scene, SceneError, open};
 
 /// A model of a motion. The first three are of the same limbs afloat, the others of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]

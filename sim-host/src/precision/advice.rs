@@ -6,9 +6,9 @@ use super::problem::{Omission, Problem};
 use super::recommend::{Choice, ranked};
 use super::reference::{NoReference, Reference, reference};
 use super::sweep::{Curve, Effort, measured, sweep, timed};
-use crate::integrators::{ADAPTIVE_TOLERANCE, Method};
-use crate::scene::Integrator;
 use serde::Serialize;
+use surefoot_mechanics::integrators::{ADAPTIVE_TOLERANCE, Method};
+use surefoot_sim::scene::Integrator;
 
 /// An advice.
 #[derive(Clone, Debug, PartialEq, Serialize)]

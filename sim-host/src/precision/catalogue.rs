@@ -2,10 +2,10 @@
 
 use super::problem::Problem;
 use super::touch_down::touch_down;
-use crate::integrators::Method;
-use crate::mechanics::systems::DoubleSphericalPendulum;
-use crate::mechanism::StartFailure;
-use crate::scene::{
+use surefoot_mechanics::integrators::Method;
+use surefoot_mechanics::systems::DoubleSphericalPendulum;
+use surefoot_sim::mechanism::StartFailure;
+use surefoot_sim::scene::{
     AnyScene, Integrator, Link, Mechanism, MechanismScene, MotionMatters, SceneError, open,
 };
 

@@ -3,11 +3,11 @@
 use super::contender::{Contender, Foretell, Runs};
 use super::measure::{Failed, Level, Played, Span};
 use super::problem::{Omission, Problem};
-use crate::closed_loop::{Run, Scalar, controller, run};
-use crate::integrators::Method;
-use crate::scene::Scene;
 use crate::stability::standing;
 use cpu_time::ThreadTime;
+use surefoot_mechanics::integrators::Method;
+use surefoot_sim::closed_loop::{Run, Scalar, controller, run};
+use surefoot_sim::scene::Scene;
 
 /// Steps within a tick of each method, coarsest first: the floor bounds the baseline's.
 const STEPS: [(Method, &[u32]); 2] = [

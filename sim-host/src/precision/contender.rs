@@ -2,7 +2,7 @@
 
 use super::course::Course;
 use super::measure::{Level, Played, Span, play, time};
-use crate::mechanism::StartFailure;
+use surefoot_sim::mechanism::StartFailure;
 
 /// Starts a motion with a step (s), and the tolerance that a method which chooses its steps is to keep.
 pub type Start = Box<dyn Fn(f64, f64) -> Result<Box<dyn Course>, StartFailure> + Send + Sync>;

@@ -4,12 +4,12 @@
 use super::controller_form::ControllerForm;
 use super::measure::Timing;
 use super::tick_count::{StatesFile, pass};
-use crate::closed_loop::{Controller, Scalar, controller, run};
-use crate::plant::PlantState;
-use crate::scene::{Scene, SceneError, load};
 use cpu_time::ThreadTime;
 use serde::Serialize;
 use surefoot::spatial::Quaternion;
+use surefoot_sim::closed_loop::{Controller, Scalar, controller, run};
+use surefoot_sim::plant::PlantState;
+use surefoot_sim::scene::{Scene, SceneError, load};
 
 /// A form of the controller on all states of Experiment 1.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -4,7 +4,7 @@ use super::controller::{ControllerPrecision, FASTEST_HZ, TorqueError};
 use super::controller_form::ControllerForm;
 use super::figures::PrecisionFigure;
 use crate::chart::{ChartError, LogLogChart, MarkedCurve};
-use crate::closed_loop::{Approximation, Scalar};
+use surefoot_sim::closed_loop::{Approximation, Scalar};
 
 /// Torque errors that no one feels: a thousandth of the largest torque.
 const GOOD: f64 = 1e-3;

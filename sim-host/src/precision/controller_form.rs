@@ -1,12 +1,12 @@
 //! The controllers whose torques are compared: precision, feet, and what is left out.
 
 use crate::callgrind::word;
-use crate::closed_loop::{
-    Approximation, Controller, Scalar, approximate_controller, bare_controller,
-};
-use crate::scene::{Scene, Workspace};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
+use surefoot_sim::closed_loop::{
+    Approximation, Controller, Scalar, approximate_controller, bare_controller,
+};
+use surefoot_sim::scene::{Scene, Workspace};
 
 /// A form of the controller.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Args)]

@@ -1,11 +1,11 @@
 //! A motion as it is measured, whatever makes its steps.
 
-use crate::integrators::{Progress, StepError};
-use crate::mechanism::Moving;
-use crate::multibody::{BodyState, ConstrainedSimulation, System};
 use nalgebra::Vector3;
 use std::sync::Arc;
 use surefoot::spatial::Quaternion;
+use surefoot_mechanics::integrators::{Progress, StepError};
+use surefoot_multibody::{BodyState, ConstrainedSimulation, System};
+use surefoot_sim::mechanism::Moving;
 
 /// What a motion should keep.
 #[derive(Clone, Debug, PartialEq)]

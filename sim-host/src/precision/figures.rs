@@ -6,7 +6,7 @@ use super::sentences;
 use super::survey::Survey;
 use super::tree_contenders::{AT_MIDPOINTS, WITH_CONSTRAINTS};
 use crate::chart::{ChartError, LogLogChart, MarkedCurve};
-use crate::integrators::Method;
+use surefoot_mechanics::integrators::Method;
 
 /// A chart with what it shows.
 #[derive(Clone, Debug)]

@@ -1,10 +1,10 @@
 //! One method with one step on one problem: what is played, and what is measured of it.
 
 use super::course::Course;
-use crate::integrators::StepError;
-use crate::mechanism::StartFailure;
 use cpu_time::ThreadTime;
 use serde::{Deserialize, Serialize};
+use surefoot_mechanics::integrators::StepError;
+use surefoot_sim::mechanism::StartFailure;
 
 /// When a motion is looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]

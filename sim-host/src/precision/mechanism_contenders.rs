@@ -3,12 +3,12 @@
 use super::contender::{Contender, Foretell, Start};
 use super::course::{Course, OfBodies, OfMechanism};
 use super::problem::Omission;
-use crate::integrators::{Method, StartError, YOSHIDA_4, YOSHIDA_6, longest_stage};
-use crate::mechanism::{StartFailure, start_bodies, start_within};
-use crate::multibody::System;
-use crate::scene::{Mechanism, MechanismScene};
 use crate::stability::motion_of;
 use std::sync::Arc;
+use surefoot_mechanics::integrators::{Method, StartError, YOSHIDA_4, YOSHIDA_6, longest_stage};
+use surefoot_multibody::System;
+use surefoot_sim::mechanism::{StartFailure, start_bodies, start_within};
+use surefoot_sim::scene::{Mechanism, MechanismScene};
 
 /// All methods that take the mechanism, and those that do not.
 ///
@@ -62,7 +62,7 @@ pub(super) fn start(scene: MechanismScene, system: Option<Arc<System>>) -> Start
     })
 }
 
-/// Of mechanisms of chapter 2 what [`foretell`](crate::stability::foretell) says along the motion; of bodies what
+/// Of mechanisms of chapter 2 what [`foretell`](surefoot_mechanics::forecast::foretell) says along the motion; of bodies what
 /// is foretold of the simulator's steps, of which each stage of a composition is one.
 fn foretell(scene: &MechanismScene, method: Method, has_bodies: bool) -> Foretell {
     let scene = scene.clone();

@@ -5,10 +5,10 @@ use super::contender::Contender;
 use super::measure::Span;
 use super::mechanism_contenders::mechanism_contenders;
 use super::tree_contenders::{at_midpoints, with_constraints};
-use crate::mechanism::{StartFailure, start_bodies};
-use crate::multibody::System;
-use crate::scene::{AnyScene, MechanismScene};
 use serde::{Deserialize, Serialize};
+use surefoot_multibody::System;
+use surefoot_sim::mechanism::{StartFailure, start_bodies};
+use surefoot_sim::scene::{AnyScene, MechanismScene};
 
 /// A method that does not play a problem.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -8,8 +8,8 @@
 use super::contender::Contender;
 use super::measure::{Level, Span, distance};
 use super::problem::Problem;
-use crate::integrators::Method;
 use serde::{Deserialize, Serialize};
+use surefoot_mechanics::integrators::Method;
 
 /// A reference.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

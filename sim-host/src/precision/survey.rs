@@ -6,13 +6,13 @@ use super::peers::{Mujoco, NoMujoco, peer_contenders};
 use super::problem::Omission;
 use super::reference::{NoReference, Reference, reference};
 use super::sweep::{Curve, Effort, sweep};
-use crate::written::write_text;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use surefoot_sim::written::write_text;
 
 /// What was found on a problem.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

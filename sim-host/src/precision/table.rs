@@ -32,7 +32,7 @@ struct Row<'a> {
 /// # Errors
 /// Where the file cannot be written.
 pub fn write_rows(path: &Path, surveys: &[Survey]) -> Result<(), String> {
-    crate::written::write_rows(path, |writer| rows(writer, surveys))
+    surefoot_sim::written::write_rows(path, |writer| rows(writer, surveys))
 }
 
 fn rows<W: Write>(writer: &mut csv::Writer<W>, surveys: &[Survey]) -> Result<(), csv::Error> {

@@ -4,11 +4,11 @@
 use super::controller_form::ControllerForm;
 use crate::callgrind::CountFailure;
 use crate::callgrind::instructions;
-use crate::closed_loop::Controller;
-use crate::plant::PlantState;
 use std::ffi::OsStr;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
+use surefoot_sim::closed_loop::Controller;
+use surefoot_sim::plant::PlantState;
 
 /// Passes a controller through all states, again and again.
 pub fn pass(controller: &mut dyn Controller, states: &[PlantState], passes: u32) {
@@ -65,7 +65,8 @@ impl Drop for StatesFile {
 /// # Errors
 /// Where it cannot be read, or is of another length.
 pub fn read_states(path: &Path) -> std::io::Result<Vec<PlantState>> {
-    let home = PlantState::home(crate::robot::biped(crate::scene::Outline::A).joint_count());
+    let home =
+        PlantState::home(surefoot_sim::robot::biped(surefoot_sim::scene::Outline::A).joint_count());
     let (coordinates, velocities) = (home.positions.len(), home.velocities.len());
     let all = coordinates + velocities;
     let bytes = std::fs::read(path)?;
@@ -85,7 +86,7 @@ pub fn read_states(path: &Path) -> std::io::Result<Vec<PlantState>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::load;
+    use surefoot_sim::scene::load;
 
     #[test]
     fn states_are_read_as_they_were_written() {

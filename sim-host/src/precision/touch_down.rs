@@ -6,9 +6,11 @@ use super::course::{Conserved, Course};
 use super::measure::Span;
 use super::problem::Problem;
 use super::tree_contenders::AT_MIDPOINTS;
-use crate::contact::{Floor, Switching};
-use crate::integrators::{Method, Progress, StepError};
-use crate::multibody::{Body, Joint, JointConstraint, Link, Simulation, Site, System, SystemError};
+use surefoot_mechanics::integrators::{Method, Progress, StepError};
+use surefoot_multibody::contact::{Floor, Switching};
+use surefoot_multibody::{
+    Body, Joint, JointConstraint, Link, Simulation, Site, System, SystemError,
+};
 
 /// How many.
 const BALLS: u32 = 20;

@@ -5,12 +5,12 @@ use super::contender::{Contender, Start};
 use super::course::{Course, OfConstrainedBodies};
 use super::mechanism_contenders::start;
 use super::problem::Omission;
-use crate::contact::Switching;
-use crate::integrators::{Method, StepError};
-use crate::mechanism::{Moving, StartFailure, start_bodies};
-use crate::multibody::{ConstrainedSimulation, System};
-use crate::scene::{Mechanism, MechanismScene};
 use std::sync::Arc;
+use surefoot_mechanics::integrators::{Method, StepError};
+use surefoot_multibody::contact::Switching;
+use surefoot_multibody::{ConstrainedSimulation, System};
+use surefoot_sim::mechanism::{Moving, StartFailure, start_bodies};
+use surefoot_sim::scene::{Mechanism, MechanismScene};
 
 /// The form with constraints and multipliers of chapter 5.
 pub const WITH_CONSTRAINTS: &str = "variational-constrained";

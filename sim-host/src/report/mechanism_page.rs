@@ -3,9 +3,9 @@
 use super::page::{Content, FailureText, PageFailure, Sheet, Word, drawn};
 use super::tables::{self, Fact, with_minus};
 use crate::chart::{ChartError, MECHANISM_FIGURES};
-use crate::mechanism::{ChosenModel, LayoutKind, MechanismRun};
-use crate::record::{MechanismRecord, Record};
-use crate::scene::{Mechanism, MechanismScene};
+use surefoot_sim::mechanism::{ChosenModel, LayoutKind, MechanismRun};
+use surefoot_sim::record::{MechanismRecord, Record};
+use surefoot_sim::scene::{Mechanism, MechanismScene};
 
 /// All that a page is made from.
 #[derive(Clone, Copy)]

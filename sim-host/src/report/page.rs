@@ -3,9 +3,9 @@
 use super::replay_data::ReplayData;
 use super::tables::{Fact, Place, Printed};
 use crate::chart::ChartError;
-use crate::mechanism::StartFailure;
-use crate::record::{Event, Record};
 use askama::Template;
+use surefoot_sim::mechanism::StartFailure;
+use surefoot_sim::record::{Event, Record};
 
 /// Why there is no page.
 #[derive(Debug, thiserror::Error)]

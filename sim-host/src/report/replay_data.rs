@@ -1,10 +1,12 @@
 //! What the page's replay plays, as JSON: numbers are rounded to what can be seen, and kept in flat lists.
 
 use crate::chart::{Mark, marks};
-use crate::picture::{DESIRED_FORCE_LENGTH, Framing, Moment, Shown, Solid, TORQUE_LENGTH, frames};
-use crate::record::{Event, Record};
 use nalgebra::{Rotation3, UnitQuaternion};
 use serde::Serialize;
+use surefoot_sim::picture::{
+    DESIRED_FORCE_LENGTH, Framing, Moment, Shown, Solid, TORQUE_LENGTH, frames,
+};
+use surefoot_sim::record::{Event, Record};
 
 /// All that the replay plays. Names are those that the page's script reads.
 #[derive(Debug, Serialize)]

@@ -3,12 +3,12 @@
 use super::page::{Content, FailureText, PageFailure, Sheet, Word, drawn};
 use super::tables;
 use crate::chart::{ChartError, RUN_FIGURES};
-use crate::closed_loop::{Failure, Outcome, Run};
 use crate::experiments::{reading, robot_figures};
-use crate::picture::{DESIRED_FORCE_LENGTH, FORCE_LENGTH, TORQUE_LENGTH};
-use crate::record::RobotRecord;
-use crate::robot::Robot;
-use crate::scene::{Scene, TorquesFrom};
+use surefoot_sim::closed_loop::{Failure, Outcome, Run};
+use surefoot_sim::picture::{DESIRED_FORCE_LENGTH, FORCE_LENGTH, TORQUE_LENGTH};
+use surefoot_sim::record::RobotRecord;
+use surefoot_sim::robot::Robot;
+use surefoot_sim::scene::{Scene, TorquesFrom};
 
 /// All that a page is made from.
 #[derive(Clone, Copy, Debug)]
@@ -96,8 +96,8 @@ fn failure_text(failure: &Failure) -> FailureText {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::closed_loop::{Scalar, controller, run};
-    use crate::scene::load;
+    use surefoot_sim::closed_loop::{Scalar, controller, run};
+    use surefoot_sim::scene::load;
 
     fn made(change: impl FnOnce(&mut Scene)) -> (Scene, String) {
         let mut scene = load("experiment-1").expect("a built-in scene");
@@ -169,7 +169,7 @@ mod tests {
     #[test]
     fn a_run_that_failed_says_why_and_plays_what_there_is() {
         let (_, page) = made(|scene| {
-            scene.integrator.name = crate::integrators::Method::SemiImplicitEuler;
+            scene.integrator.name = surefoot_mechanics::integrators::Method::SemiImplicitEuler;
             scene.integrator.step_s = 1e-3;
         });
         assert!(

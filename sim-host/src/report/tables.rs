@@ -1,11 +1,11 @@
 //! What the page's tables say.
 
 use super::Report;
-use crate::closed_loop::{Gait, Peaks, Run};
 use crate::experiments::{Comparison, printed_figures, reading};
-use crate::record::{Event, Settling};
-use crate::robot::Robot;
-use crate::scene::{Feet, TorquesFrom};
+use surefoot_sim::closed_loop::{Gait, Peaks, Run};
+use surefoot_sim::record::{Event, Settling};
+use surefoot_sim::robot::Robot;
+use surefoot_sim::scene::{Feet, TorquesFrom};
 
 /// A line of the summary.
 pub(super) struct Fact {
@@ -69,7 +69,7 @@ fn feet(feet: &Feet) -> String {
 /// Peaks of the desired wrench and of all joints: name, value and time.
 pub(super) fn peaks(robot: &Robot, run: &Run) -> Vec<[String; 3]> {
     let Some(peaks) = Peaks::of(&run.samples) else { return Vec::new() };
-    let row = |name: String, peak: crate::closed_loop::Peak, unit: &str| {
+    let row = |name: String, peak: surefoot_sim::closed_loop::Peak, unit: &str| {
         let value = with_minus(&format!("{:.1} {unit}", peak.value));
         [name, value, format!("{:.3} s", peak.time_s)]
     };

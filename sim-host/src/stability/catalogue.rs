@@ -1,10 +1,10 @@
 //! The problems whose limits are sought.
 
 use super::problem::Problem;
-use crate::mechanics::systems::{
+use surefoot_mechanics::systems::{
     DoubleSphericalPendulum, FreeRigidBody, Pendulum, Planet, PolarAngles,
 };
-use crate::mechanics::{Chart, Natural, Scalar, jacobian};
+use surefoot_mechanics::{Chart, Natural, Scalar, jacobian};
 
 /// All problems.
 pub fn problems() -> Vec<Problem> {

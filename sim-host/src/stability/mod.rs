@@ -2,9 +2,6 @@
 //! beyond, and what was foretold.
 
 mod catalogue;
-mod course;
-mod forecast;
-mod foretell;
 pub mod loop_limits;
 pub mod maps;
 mod problem;
@@ -14,12 +11,8 @@ mod store;
 mod tally;
 mod tree_catalogue;
 mod trees;
-mod verdict;
 
 pub use catalogue::problems;
-pub use course::Course;
-pub use forecast::{Change, Forecast, Probe, has_modified_energy, oscillation_limit};
-pub use foretell::foretell;
 pub use problem::Problem;
 pub use scan::{Agreement, Limit, RATIO, Scan, all_problems, scan_one, scan_problems};
 pub use standing::standing;
@@ -27,4 +20,3 @@ pub use store::{MapStore, PartStoreError, Parts, ScanStore};
 pub use tally::Tally;
 pub use tree_catalogue::{TreeProblemError, floating_chain, motion_of, tree_problems};
 pub use trees::TreeMotion;
-pub use verdict::{FailureKind, Verdict};

@@ -1,13 +1,13 @@
 //! A problem: a system, a start, a time, and what its motion must keep.
 
-use super::course::Course;
-use super::forecast::Forecast;
-use super::foretell::{RANGE_S, bounds, foretell};
-use super::verdict::{Verdict, attempt};
-use crate::integrators::{Method, start_free_body, start_natural};
-use crate::mechanics::systems::FreeRigidBody;
-use crate::mechanics::{Lagrangian, Natural};
 use num_dual::Dual64;
+use surefoot_mechanics::forecast::Course;
+use surefoot_mechanics::forecast::Forecast;
+use surefoot_mechanics::forecast::{RANGE_S, bounds, foretell};
+use surefoot_mechanics::forecast::{Verdict, attempt};
+use surefoot_mechanics::integrators::{Method, start_free_body, start_natural};
+use surefoot_mechanics::systems::FreeRigidBody;
+use surefoot_mechanics::{Lagrangian, Natural};
 
 type Attempt = Box<dyn Fn(Method, f64) -> Option<Verdict> + Send + Sync>;
 type Foretell = Box<dyn Fn(Method) -> Option<Forecast> + Send + Sync>;

@@ -5,11 +5,11 @@ use super::problem::Problem;
 use super::store::{PartStoreError, Parts, ScanStore};
 use super::tally::Tally;
 use super::tree_catalogue::{TreeProblemError, tree_problems};
-use super::verdict::{FailureKind, Verdict};
-use crate::integrators::Method;
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use surefoot_mechanics::forecast::{FailureKind, Verdict};
+use surefoot_mechanics::integrators::Method;
 
 /// Ratio of neighbours in a scan of everything.
 pub const RATIO: f64 = 1.02;

@@ -1,15 +1,15 @@
 //! The standing robot: how long the plant's steps may be under the controller.
 
-use super::forecast::Forecast;
 use super::loop_limits::{Criterion, Ending, Loop, Manner, play};
 use super::maps::{Axis, Foretold, edge, should_land, should_stand};
 use super::problem::Problem;
-use super::verdict::{FailureKind, Verdict};
-use crate::integrators::Method;
-use crate::multibody::{Simulation, StepForecast};
-use crate::plant::{OnFloor, Plant};
-use crate::robot::Start;
-use crate::scene::{Feet, Scene};
+use surefoot_mechanics::forecast::Forecast;
+use surefoot_mechanics::forecast::{FailureKind, Verdict};
+use surefoot_mechanics::integrators::Method;
+use surefoot_multibody::{Simulation, StepForecast};
+use surefoot_sim::plant::{OnFloor, Plant};
+use surefoot_sim::robot::Start;
+use surefoot_sim::scene::{Feet, Scene};
 
 /// Steps in question, s.
 const RANGE_S: [f64; 2] = [5e-5, 0.2];

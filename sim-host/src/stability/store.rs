@@ -4,13 +4,13 @@ use super::loop_limits::fingerprint;
 use super::maps::{Column, Map};
 use super::problem::Problem;
 use super::scan::Limit;
-use crate::written::write_text;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
+use surefoot_sim::written::write_text;
 
 /// Finished parts cannot be read or kept.
 #[derive(Debug, thiserror::Error)]

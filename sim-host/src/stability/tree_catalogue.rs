@@ -4,10 +4,10 @@ use super::loop_limits::Criterion;
 use super::problem::Problem;
 use super::standing::standing;
 use super::trees::TreeMotion;
-use crate::integrators::StepError;
-use crate::mechanism::{StartFailure, start_bodies};
-use crate::multibody::ChainJoint;
-use crate::scene::{AnyScene, Mechanism, MechanismScene, SceneError, load, open};
+use surefoot_mechanics::integrators::StepError;
+use surefoot_multibody::ChainJoint;
+use surefoot_sim::mechanism::{StartFailure, start_bodies};
+use surefoot_sim::scene::{AnyScene, Mechanism, MechanismScene, SceneError, load, open};
 
 /// Steps in which scenes are set up, s; they are left again before the first.
 const SET_UP_S: f64 = 1e-3;

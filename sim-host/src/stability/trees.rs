@@ -4,12 +4,12 @@
 //! springs, dampers and floor are implicit and limit nothing but accuracy; weight enters a step like forces
 //! do in Verlet's method, so that its fastest swing grows beyond `Ω h = 2`.
 
-use super::forecast::{Change, FEW_STEPS, Forecast, Probe, SHARE, SHARE_OF_LOSSES};
 use super::problem::Problem;
-use super::verdict::{Bounds, FailureKind, Verdict};
-use crate::contact::Floor;
-use crate::integrators::Method;
-use crate::multibody::{BodyState, Simulation, System, SystemError};
+use surefoot_mechanics::forecast::{Bounds, FailureKind, Verdict};
+use surefoot_mechanics::forecast::{Change, FEW_STEPS, Forecast, Probe, SHARE, SHARE_OF_LOSSES};
+use surefoot_mechanics::integrators::Method;
+use surefoot_multibody::contact::Floor;
+use surefoot_multibody::{BodyState, Simulation, System, SystemError};
 
 /// A motion of a tree: its system, its start, its time.
 #[derive(Clone, Debug)]

@@ -1,9 +1,9 @@
 //! Why a run has failed is told from trials: of the step, of the loop.
 
+use surefoot_mechanics::integrators::Method;
 use surefoot_sim::closed_loop::{
     Outcome, Remedy, Run, Scalar, StepTrial, bare_controller, controller, explain, run,
 };
-use surefoot_sim::integrators::Method;
 use surefoot_sim::scene::{Integrator, Scene, load};
 
 fn experiment() -> Scene {

@@ -2,8 +2,8 @@
 //! (4.26), integrated here by itself. Controller at every plant step, exactly fixed feet.
 
 use nalgebra::Vector3;
+use surefoot_mechanics::integrators::Method;
 use surefoot_sim::closed_loop::{Run, Scalar, controller, run};
-use surefoot_sim::integrators::Method;
 use surefoot_sim::scene::{Integrator, Scene, load};
 
 const KP: [f64; 3] = [50.0, 50.0, 200.0];

@@ -1,7 +1,7 @@
 //! Experiment 1 on the floor.
 
+use surefoot_mechanics::integrators::Method;
 use surefoot_sim::closed_loop::{Outcome, Peaks, Run, Scalar, controller, run};
-use surefoot_sim::integrators::Method;
 use surefoot_sim::record::EventKind;
 use surefoot_sim::scene::{Feet, Integrator, Outline, Scene, TorquesFrom, Workspace, load};
 

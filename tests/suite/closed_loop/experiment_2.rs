@@ -3,8 +3,8 @@
 use super::experiment_1::assert_balanced;
 use nalgebra::Vector3;
 use surefoot::spatial::Quaternion;
+use surefoot_mechanics::integrators::Method;
 use surefoot_sim::closed_loop::{Run, Scalar, controller, run};
-use surefoot_sim::integrators::Method;
 use surefoot_sim::record::{EventKind, Sample};
 use surefoot_sim::scene::{Feet, Integrator, Outline, Scene, TorquesFrom, load};
 

@@ -4,13 +4,13 @@ use std::cell::RefCell;
 use std::path::PathBuf;
 use std::sync::Mutex;
 use surefoot::model::robots::biped;
-use surefoot_sim::closed_loop::{Failure, Run};
-use surefoot_sim::contact::ContactState;
-use surefoot_sim::scene::{Outline, Push, Scene, load};
-use surefoot_sim::stability::loop_limits::{
+use surefoot_host::stability::loop_limits::{
     Cell, Criterion, Ending, Footing, Found, Ladder, Loop, Manner, Quantity, Store, Survey,
     Tolerance, Trial, play, search,
 };
+use surefoot_multibody::contact::ContactState;
+use surefoot_sim::closed_loop::{Failure, Run};
+use surefoot_sim::scene::{Outline, Push, Scene, load};
 
 /// Searches for a limit of a rule; with all values that were tried.
 fn found(

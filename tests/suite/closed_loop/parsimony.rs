@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 use std::num::NonZeroUsize;
 use surefoot::spatial::Quaternion;
+use surefoot_host::parsimony::Rung;
+use surefoot_mechanics::integrators::Method;
+use surefoot_multibody::Stops;
 use surefoot_sim::closed_loop::{Outcome, Run, Scalar, bare_controller, run};
-use surefoot_sim::integrators::Method;
-use surefoot_sim::multibody::Stops;
-use surefoot_sim::parsimony::Rung;
 use surefoot_sim::plant::{Additions, RobotModel, Variational};
 use surefoot_sim::record::Sample;
 use surefoot_sim::scene::{
@@ -123,7 +123,7 @@ fn stops() -> JointStops {
 /// plant itself.
 #[test]
 fn models_that_cannot_be_are_refused() {
-    let text = include_str!("../../../sim-host/scenes/experiment-1.toml");
+    let text = include_str!("../../../sim-host/sim/scenes/experiment-1.toml");
     for (from, to, words) in [
         ("duration_s = 3.0", "duration_s = 3.0\nmodel = \"tiny\"", ["unknown variant", "lumped"]),
         (

@@ -1,9 +1,9 @@
 //! Plants by themselves.
 
 use surefoot::model::robots::biped::{SoleOutline, TREE};
+use surefoot_mechanics::integrators::Method;
+use surefoot_multibody::contact::{ContactState, Floor};
 use surefoot_sim::closed_loop;
-use surefoot_sim::contact::{ContactState, Floor};
-use surefoot_sim::integrators::Method;
 use surefoot_sim::plant::{OnFloor, Plant, PlantState, Welded};
 use surefoot_sim::scene::load;
 

@@ -1,10 +1,10 @@
 //! Ends of the joints' ways, in all plants.
 
 use surefoot::model::robots::biped::SoleOutline;
+use surefoot_mechanics::integrators::Method;
+use surefoot_multibody::Stops;
+use surefoot_multibody::contact::Floor;
 use surefoot_sim::closed_loop::{Run, Scalar, bare_controller, run};
-use surefoot_sim::contact::Floor;
-use surefoot_sim::integrators::Method;
-use surefoot_sim::multibody::Stops;
 use surefoot_sim::plant::{Additions, OnFloor, Plant, PlantState, Variational};
 use surefoot_sim::robot::biped;
 use surefoot_sim::scene::{Integrator, JointStops, Outline, load};

@@ -3,13 +3,13 @@
 use nalgebra::Vector3;
 use surefoot::model::robots::biped::{FEET, TREE};
 use surefoot::spatial::{Quaternion, Wrench};
-use surefoot_sim::closed_loop::{Scalar, controller, plant, run_plant};
-use surefoot_sim::contact::{ContactState, Switching};
-use surefoot_sim::integrators::Progress;
-use surefoot_sim::multibody::{
+use surefoot_mechanics::integrators::Progress;
+use surefoot_multibody::contact::{ContactState, Switching};
+use surefoot_multibody::{
     Body, Closing, Closure, Frame, Joint, JointConstraint, Link, Simulation, Stops, Striker,
     System, lumped, system_of_tree,
 };
+use surefoot_sim::closed_loop::{Scalar, controller, plant, run_plant};
 use surefoot_sim::plant::{
     Additions, BlockSample, Observation, PerPoint, Plant, PlantState, RobotModel, StepFailure,
     ThrownBlock, Variational,

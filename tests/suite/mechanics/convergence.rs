@@ -3,7 +3,7 @@
 
 use super::systems::{body, pendulum, planet, planet_at};
 use serde_json::Value;
-use surefoot_sim::integrators::{Method, Motion, StartError};
+use surefoot_mechanics::integrators::{Method, Motion, StartError};
 
 fn reference(state: &str, names: &[&str]) -> Vec<f64> {
     let text = include_str!("../../vectors/integrator_reference.json");

@@ -2,11 +2,11 @@
 
 use super::systems::{PENDULUM, pendulum};
 use num_dual::Dual64;
-use surefoot_sim::integrators::{Form, Integrator, Method, Rattle, Shake, Variational};
-use surefoot_sim::mechanics::systems::{
+use surefoot_mechanics::integrators::{Form, Integrator, Method, Rattle, Shake, Variational};
+use surefoot_mechanics::systems::{
     DoubleSphericalPendulum, FreeRigidBody, Pendulum, Planet, PolarAngles,
 };
-use surefoot_sim::mechanics::{
+use surefoot_mechanics::{
     Chart, DiscreteLagrangian, Endpoint, Generalized, Lagrangian, Midpoint, Momenta, Natural,
     Scalar, action_sum,
 };
@@ -230,7 +230,7 @@ impl Natural<6, 0> for Stretched {
 fn the_discrete_gradient_conserves_energy_of_any_potential() {
     let system = Stretched { stiffness: 40.0, length: 1.2 };
     let (q, v) = PENDULUM.printed_start();
-    let mut motion = surefoot_sim::integrators::start_natural::<_, f64, 6, 0, 6>(
+    let mut motion = surefoot_mechanics::integrators::start_natural::<_, f64, 6, 0, 6>(
         Method::EnergyMomentum,
         system,
         0.05,

@@ -1,8 +1,8 @@
 //! External and dissipative forces (§5.1).
 
-use surefoot_sim::integrators::{Integrator, Method, StartError, Variational, start_natural};
-use surefoot_sim::mechanics::systems::PolarAngles;
-use surefoot_sim::mechanics::{Generalized, Lagrangian, Midpoint, Natural, Scalar};
+use surefoot_mechanics::integrators::{Integrator, Method, StartError, Variational, start_natural};
+use surefoot_mechanics::systems::PolarAngles;
+use surefoot_mechanics::{Generalized, Lagrangian, Midpoint, Natural, Scalar};
 
 const RATE: f64 = 3.0;
 const DAMPING: f64 = 0.4;

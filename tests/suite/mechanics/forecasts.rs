@@ -2,8 +2,8 @@
 
 use super::maps::{check, file};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use surefoot_sim::stability::maps::{maps, survey, tally, tell};
-use surefoot_sim::stability::{
+use surefoot_host::stability::maps::{maps, survey, tally, tell};
+use surefoot_host::stability::{
     Agreement, Limit, MapStore, RATIO, ScanStore, Tally, all_problems, problems, scan_problems,
 };
 

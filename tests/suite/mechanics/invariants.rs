@@ -2,11 +2,9 @@
 
 use super::systems::{PENDULUM, body, pendulum};
 use num_dual::{Dual, Dual64};
-use surefoot_sim::integrators::{Integrator, Method, Motion, Variational, start_natural};
-use surefoot_sim::mechanics::systems::{FreeRigidBody, Planet, PolarAngles};
-use surefoot_sim::mechanics::{
-    Chart, Displacement, Lagrangian, Midpoint, jacobian, symplectic_form,
-};
+use surefoot_mechanics::integrators::{Integrator, Method, Motion, Variational, start_natural};
+use surefoot_mechanics::systems::{FreeRigidBody, Planet, PolarAngles};
+use surefoot_mechanics::{Chart, Displacement, Lagrangian, Midpoint, jacobian, symplectic_form};
 
 /// The momentum map (2.22) over 1e5 steps, to 1e-10 of itself.
 #[test]

@@ -1,9 +1,9 @@
 //! Where steps are too long: a typed failure, at the step that is known for it.
 
-use surefoot_sim::integrators::{Integrator, StepError, StepFailure, Variational};
-use surefoot_sim::mechanics::Endpoint;
-use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
-use surefoot_sim::newton::NewtonFailure;
+use surefoot_mechanics::Endpoint;
+use surefoot_mechanics::integrators::{Integrator, StepError, StepFailure, Variational};
+use surefoot_mechanics::newton::NewtonFailure;
+use surefoot_mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
 
 /// 3000 steps of the body of table 2.1, whose second point an accurate motion gives. Largest relative
 /// change of its energy.

@@ -3,10 +3,10 @@
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use surefoot_sim::integrators::Method;
-use surefoot_sim::mechanics::systems::FreeRigidBody;
-use surefoot_sim::stability::maps::{Column, Foretold, Outcome, maps, survey, tell};
-use surefoot_sim::stability::{MapStore, Problem, scan_one};
+use surefoot_host::stability::maps::{Column, Foretold, Outcome, maps, survey, tell};
+use surefoot_host::stability::{MapStore, Problem, scan_one};
+use surefoot_mechanics::integrators::Method;
+use surefoot_mechanics::systems::FreeRigidBody;
 
 /// Where this process keeps what charts are made of.
 pub fn file(name: &str) -> PathBuf {
@@ -16,7 +16,7 @@ pub fn file(name: &str) -> PathBuf {
 }
 
 /// A map's columns are whole, and say nothing that is no number.
-pub fn check(map: &surefoot_sim::stability::maps::Map, columns: &[Column]) {
+pub fn check(map: &surefoot_host::stability::maps::Map, columns: &[Column]) {
     assert_eq!(columns.len(), map.x.cells, "{}", map.name);
     for column in columns {
         assert_eq!(column.cells.len(), map.y.cells, "{}", map.name);

@@ -3,9 +3,10 @@
 use crate::mechanics::systems::{PENDULUM, pendulum};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use surefoot_sim::integrators::{Method, StartError, start_natural};
-use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
-use surefoot_sim::stability::{Agreement, FailureKind, Problem, problems, scan_one};
+use surefoot_host::stability::{Agreement, Problem, problems, scan_one};
+use surefoot_mechanics::forecast::FailureKind;
+use surefoot_mechanics::integrators::{Method, StartError, start_natural};
+use surefoot_mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
 
 /// `errata.md`: near 0.18 s the double pendulum's DVP loses its root; the energy-momentum method's still
 /// exists at 0.38 s, where plain Newton misses it.

@@ -1,7 +1,7 @@
 //! Starts of the library's systems, and a closed form.
 
-use surefoot_sim::integrators::{Method, Motion, StartError, start_free_body, start_natural};
-use surefoot_sim::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody, Planet};
+use surefoot_mechanics::integrators::{Method, Motion, StartError, start_free_body, start_natural};
+use surefoot_mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody, Planet};
 
 /// Where a planet from its perihelion is after a time: Kepler's equation, by Newton's method on a convex
 /// function.

@@ -1,6 +1,6 @@
 //! Tables 2.1 and 2.2, and what is drawn of them.
 
-use surefoot_sim::experiments::{Comparison, double_pendulum, free_body};
+use surefoot_host::experiments::{Comparison, double_pendulum, free_body};
 
 /// Figures that are farther from the printed ones than asked for.
 fn missed(rows: &[Comparison]) -> Vec<&str> {

@@ -1,6 +1,6 @@
 //! The energy that is reported is the system's, under every method: bodies, weight, and all that joints hold.
 
-use surefoot_sim::integrators::{Method, StartError};
+use surefoot_mechanics::integrators::{Method, StartError};
 use surefoot_sim::mechanism::{MechanismRun, StartFailure, run};
 use surefoot_sim::scene::{AnyScene, parse};
 

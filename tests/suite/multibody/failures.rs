@@ -1,6 +1,6 @@
 //! What is said of a run that fails: from trials, never from a guess.
 
-use surefoot_sim::integrators::Method;
+use surefoot_mechanics::integrators::Method;
 use surefoot_sim::mechanism::{Cause, MechanismRun, run};
 use surefoot_sim::scene::{AnyScene, MechanismScene, parse};
 

@@ -6,7 +6,7 @@ use surefoot::dynamics::{body_poses, forward_dynamics, joint_poses};
 use surefoot::model::Tree;
 use surefoot::model::robots::biped;
 use surefoot::spatial::{Quaternion, Wrench};
-use surefoot_sim::multibody::{
+use surefoot_multibody::{
     Chain, ChainJoint, JointConstraint, JointLaw, Simulation, Stops, states_of_tree, system_of_tree,
 };
 

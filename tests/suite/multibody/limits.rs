@@ -1,9 +1,9 @@
 //! How long steps may be: what is foretold against what is found.
 
 use super::trees::{floating_chain, mixed_tree};
-use surefoot_sim::integrators::{Method, StepFailure};
-use surefoot_sim::multibody::{BodyState, Chain, ChainJoint, Simulation, StepForecast, System};
-use surefoot_sim::stability::{TreeMotion, scan_one};
+use surefoot_host::stability::{TreeMotion, scan_one};
+use surefoot_mechanics::integrators::{Method, StepFailure};
+use surefoot_multibody::{BodyState, Chain, ChainJoint, Simulation, StepForecast, System};
 
 const SECONDS: f64 = 1.0;
 

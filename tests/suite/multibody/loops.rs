@@ -2,7 +2,7 @@
 
 use num_dual::Dual64;
 use std::sync::Arc;
-use surefoot_sim::multibody::{
+use surefoot_multibody::{
     Body, Closing, Closure, ConstraintFunction, Joint, JointConstraint, Link, Simulation, System,
     SystemError,
 };

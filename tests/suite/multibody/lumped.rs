@@ -4,8 +4,8 @@ use super::oracle::apart;
 use nalgebra::Vector3;
 use surefoot::model::robots::biped::{FEET, SoleOutline, TREE};
 use surefoot::spatial::Quaternion;
-use surefoot_sim::contact::{Floor, Switching};
-use surefoot_sim::multibody::{
+use surefoot_multibody::contact::{Floor, Switching};
+use surefoot_multibody::{
     Body, BodyState, Closing, Closure, Joint, JointConstraint, JointLaw, Reduced, Simulation, Site,
     System, SystemError, lumped, states_of_tree, system_of_tree,
 };

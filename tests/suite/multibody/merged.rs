@@ -6,8 +6,8 @@ use num_dual::Dual64;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use surefoot::spatial::Quaternion;
-use surefoot_sim::contact::{Floor, Switching};
-use surefoot_sim::multibody::{
+use surefoot_multibody::contact::{Floor, Switching};
+use surefoot_multibody::{
     Body, BodyState, Closing, Closure, ConstraintFunction, Frame, Joint, JointConstraint, JointLaw,
     Link, Simulation, Site, System, merged,
 };

@@ -1,9 +1,9 @@
 //! Models of mechanisms: the smallest by default, any other that the scene bears when it is asked for.
 
 use std::num::NonZeroUsize;
+use surefoot_host::parsimony::MechanismRung;
+use surefoot_multibody::{NotPlanar, NotSingle};
 use surefoot_sim::mechanism::{MechanismModel, NotMerged, StartFailure, run_model, start_model};
-use surefoot_sim::multibody::{NotPlanar, NotSingle};
-use surefoot_sim::parsimony::MechanismRung;
 use surefoot_sim::scene::{AnyScene, Integrator, MechanismScene, open, parse};
 
 /// Under the method that has several models, whatever is recommended for the scene.

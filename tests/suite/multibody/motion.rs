@@ -1,7 +1,7 @@
 //! Motions of chains and trees.
 
 use super::trees::{floating_chain, mixed_tree};
-use surefoot_sim::multibody::{
+use surefoot_multibody::{
     Body, BodyState, Chain, ChainJoint, Link, Simulation, System, SystemError,
 };
 

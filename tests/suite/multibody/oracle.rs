@@ -1,7 +1,7 @@
 //! The simulator in joint coordinates makes the motion of the one with constraints, to round-off.
 
 use super::trees::{floating_chain, mixed_tree};
-use surefoot_sim::multibody::{BodyState, ChainJoint, ConstrainedSimulation, Simulation, System};
+use surefoot_multibody::{BodyState, ChainJoint, ConstrainedSimulation, Simulation, System};
 
 /// Largest difference of any coordinate; quaternions up to their sign.
 pub fn apart(a: &[BodyState], b: &[BodyState]) -> f64 {

@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use surefoot::spatial::Quaternion;
-use surefoot_sim::contact::{Floor, Switching};
-use surefoot_sim::multibody::{
+use surefoot_multibody::contact::{Floor, Switching};
+use surefoot_multibody::{
     Body, BodyState, Closing, Closure, Frame, Joint, JointConstraint, JointLaw, Link, NotPlanar,
     NotSingle, PlanarError, PlanarSimulation, Simulation, SingleBody, SingleBodyError, Site, Stops,
     System, SystemError,
@@ -166,7 +166,7 @@ fn a_planar_motion_is_the_one_in_space() {
             worst = worst.max(apart(&space.states(), &planar.states()));
             for (a, b) in space.contacts().iter().zip(planar.contacts()) {
                 assert_eq!(a.state, b.state, "{seed}, step {step}");
-                touched += usize::from(a.state != surefoot_sim::contact::ContactState::Free);
+                touched += usize::from(a.state != surefoot_multibody::contact::ContactState::Free);
             }
         }
         let (a, b) = (space.rates().expect("rates"), planar.rates().expect("rates"));
@@ -306,7 +306,7 @@ fn a_single_body_moves_as_a_tree_of_one() {
             worst = worst.max(apart(&tree.states(), &[single.state()]));
             for (a, b) in tree.contacts().iter().zip(single.contacts()) {
                 assert_eq!(a.state, b.state, "{case}, step {step}");
-                down += usize::from(a.state != surefoot_sim::contact::ContactState::Free);
+                down += usize::from(a.state != surefoot_multibody::contact::ContactState::Free);
             }
         }
         let (a, b) = (tree.energies().expect("energies"), single.energies());

@@ -4,7 +4,7 @@
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use surefoot::dynamics::{body_poses, forward_dynamics, joint_poses};
 use surefoot::model::{Link, Tree};
-use surefoot_sim::multibody::{Chain, ChainJoint, Simulation};
+use surefoot_multibody::{Chain, ChainJoint, Simulation};
 
 const LINKS: usize = 6;
 const CHAIN: Chain = Chain {

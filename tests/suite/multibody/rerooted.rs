@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use surefoot::spatial::Quaternion;
-use surefoot_sim::multibody::{
+use surefoot_multibody::{
     Body, BodyState, Closing, ClosingMotors, Closure, Gimbal, Joint, JointConstraint, JointLaw,
     Link, Reduced, Rerooted, Seat, Simulation, System, SystemError, merged, rerooted,
 };

@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use surefoot::spatial::Quaternion;
-use surefoot_sim::integrators::YOSHIDA_4;
-use surefoot_sim::multibody::{
+use surefoot_mechanics::integrators::YOSHIDA_4;
+use surefoot_multibody::{
     Body, BodyState, Closing, Closure, ConstrainedSimulation, Joint, JointConstraint, JointLaw,
     Link, PlanarSimulation, Simulation, SingleBody, System,
 };

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 use surefoot::spatial::Quaternion;
-use surefoot_sim::contact::{Floor, GroundPlane, Switching};
-use surefoot_sim::multibody::{
+use surefoot_multibody::contact::{Floor, GroundPlane, Switching};
+use surefoot_multibody::{
     Body, Joint, JointConstraint, Link, NotPlanar, PlanarError, PlanarSimulation, Simulation, Site,
     System, SystemError,
 };

@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, DVector};
 use num_dual::Dual64;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use surefoot_sim::mechanics::jacobian;
-use surefoot_sim::multibody::{
+use surefoot_mechanics::jacobian;
+use surefoot_multibody::{
     Correction, Equations, Joint, JointConstraint, SingularJoint, TreeEquations,
 };
 

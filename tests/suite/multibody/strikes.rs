@@ -2,8 +2,8 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use surefoot_sim::contact::{Floor, Switching, YieldingBox};
-use surefoot_sim::multibody::{
+use surefoot_multibody::contact::{Floor, Switching, YieldingBox};
+use surefoot_multibody::{
     Body, BodyState, Joint, JointConstraint, Link, Simulation, Striker, System, SystemError,
 };
 

@@ -2,8 +2,8 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use surefoot_sim::contact::{ContactState, Switching};
-use surefoot_sim::multibody::Simulation;
+use surefoot_multibody::Simulation;
+use surefoot_multibody::contact::{ContactState, Switching};
 use surefoot_sim::scene::{AnyScene, JointEntry, Mechanism, Multibody, open};
 
 /// The scene `box-drop`.

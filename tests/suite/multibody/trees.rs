@@ -2,7 +2,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use surefoot_sim::multibody::{
+use surefoot_multibody::{
     Body, BodyState, Chain, ChainJoint, Joint, JointConstraint, Link, System,
 };
 

@@ -1,11 +1,11 @@
 //! Advice on thirty random scenes: what it says is so.
 
 use rand::RngExt;
-use surefoot_sim::integrators::Method;
-use surefoot_sim::multibody::ChainJoint;
-use surefoot_sim::precision::{
+use surefoot_host::precision::{
     Advice, AdviceError, Among, Choice, Contender, Effort, Level, Problem, advise, distance, timed,
 };
+use surefoot_mechanics::integrators::Method;
+use surefoot_multibody::ChainJoint;
 use surefoot_sim::scene::{
     AnyScene, Flight, Integrator, Link, Mechanism, MechanismScene, MotionMatters, open,
 };

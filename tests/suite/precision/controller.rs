@@ -1,8 +1,8 @@
 //! What precision, rate, and things left out do to the controller.
 
+use surefoot_host::precision::{ControllerForm, ControllerPrecision, controller_precision};
 use surefoot_sim::closed_loop::{Approximation, Scalar, approximate_controller, bare_controller};
 use surefoot_sim::plant::PlantState;
-use surefoot_sim::precision::{ControllerForm, ControllerPrecision, controller_precision};
 use surefoot_sim::scene::load;
 
 fn of_form(precision: &ControllerPrecision, form: ControllerForm) -> f64 {

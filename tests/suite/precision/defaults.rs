@@ -1,12 +1,12 @@
 //! Methods and steps of the built-in scenes are those that the rule recommends; methods on bodies and joints run, or
 //! say why not.
 
-use surefoot_sim::integrators::{Method, StartError};
-use surefoot_sim::mechanism::{StartFailure, run, start};
-use surefoot_sim::precision::{
+use surefoot_host::precision::{
     AdviceError, Among, Effort, Level, Problem, STEP_MARGIN, advise, distance, longest, reference,
     sweep,
 };
+use surefoot_mechanics::integrators::{Method, StartError};
+use surefoot_sim::mechanism::{StartFailure, run, start};
 use surefoot_sim::scene::{AnyScene, MechanismScene, built_in, open};
 
 /// Advice's, without times.

@@ -7,7 +7,7 @@ mod orders;
 mod peers;
 mod repeats;
 
-use surefoot_sim::precision::Effort;
+use surefoot_host::precision::Effort;
 
 /// The chart's steps, without times.
 const UNTIMED: Effort = Effort { repeats: 0, ..Effort::CHART };

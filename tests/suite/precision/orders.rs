@@ -1,7 +1,7 @@
 //! Slopes of error against step, against known orders.
 
 use super::UNTIMED;
-use surefoot_sim::precision::{AT_MIDPOINTS, Curve, problem, reference, sweep};
+use surefoot_host::precision::{AT_MIDPOINTS, Curve, problem, reference, sweep};
 
 fn curves(name: &str) -> Vec<Curve> {
     let problem = problem(name).expect("a problem");

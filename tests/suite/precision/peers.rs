@@ -1,8 +1,8 @@
 //! Models for other simulators: what is written, and what is refused. `chart work-precision --peers` runs them, and
 //! shows that MuJoCo's error against our reference falls with its step.
 
+use surefoot_host::precision::{NoModel, mujoco_model};
 use surefoot_sim::mechanism::start_bodies;
-use surefoot_sim::precision::{NoModel, mujoco_model};
 use surefoot_sim::scene::{AnyScene, open};
 use surefoot_tests::motions::{biped_in_flight, biped_on_feet};
 
@@ -36,18 +36,18 @@ fn what_is_not_written_is_refused() {
     };
     let mut simulation = start_bodies(&scene.mechanism, 1e-3).expect("a motion");
     assert_eq!(mujoco_model(&mut simulation), Err(NoModel::Unwritten));
-    let spherical = surefoot_sim::multibody::Chain {
+    let spherical = surefoot_multibody::Chain {
         links: 2,
         mass: 1.0,
         length: 0.5,
         radius: 0.05,
-        joint: surefoot_sim::multibody::ChainJoint::Spherical,
+        joint: surefoot_multibody::ChainJoint::Spherical,
         floats: false,
         gravity: 9.81,
     };
     let (states, rates) = (spherical.bent(0.1), [[0.0; 7]; 2]);
     let system = spherical.system().expect("a system");
     let mut simulation =
-        surefoot_sim::multibody::Simulation::new(system, 1e-3, &states, &rates).expect("a start");
+        surefoot_multibody::Simulation::new(system, 1e-3, &states, &rates).expect("a start");
     assert_eq!(mujoco_model(&mut simulation), Err(NoModel::Joint { link: 0 }));
 }

@@ -1,6 +1,6 @@
 //! A second run comes to the same conclusions, on all problems. Times differ; all else is the same to the last bit.
 
-use surefoot_sim::precision::{Curve, Effort, PROBLEMS, problem, ranked, reference, sweep};
+use surefoot_host::precision::{Curve, Effort, PROBLEMS, problem, ranked, reference, sweep};
 
 /// All curves of a problem, and whether what works was timed.
 fn run(name: &str, effort: &Effort) -> Vec<Curve> {

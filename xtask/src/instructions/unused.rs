@@ -7,20 +7,20 @@ use anyhow::{Result, ensure};
 
 /// Source files of features that scenes may be without.
 const FEATURES: [(&str, &[&str]); 5] = [
-    ("contact", &["sim-host/src/contact/"]),
-    ("thrown bodies", &["recursive/strike.rs", "recursive/bond.rs", "multibody/striker.rs"]),
+    ("contact", &["sim-host/multibody/src/contact/"]),
+    ("thrown bodies", &["recursive/strike.rs", "recursive/bond.rs", "multibody/src/striker.rs"]),
     (
         "loops",
         &[
             "recursive/loops.rs",
             "recursive/closing_rows.rs",
             "recursive/driven_loops.rs",
-            "multibody/closure.rs",
-            "multibody/joint.rs",
+            "multibody/src/closure.rs",
+            "multibody/src/joint.rs",
         ],
     ),
-    ("springs, dampers, stops", &["multibody/joint_law.rs"]),
-    ("motors of spherical joints", &["recursive/motors.rs", "multibody/gimbal.rs"]),
+    ("springs, dampers, stops", &["multibody/src/joint_law.rs"]),
+    ("motors of spherical joints", &["recursive/motors.rs", "multibody/src/gimbal.rs"]),
 ];
 
 /// Steps that are counted, and the features that they have.

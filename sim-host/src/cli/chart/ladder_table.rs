@@ -4,10 +4,10 @@ use crate::callgrind::word;
 use crate::chart::{Bar, Bars};
 use crate::parsimony::{Ladder, MechanismLadder, MechanismRung, Rung, Saving};
 use crate::report::Figure;
-use crate::written::{write_rows, write_text};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use surefoot_sim::written::{write_rows, write_text};
 
 /// A rung's figures; of the CSV file a row.
 #[derive(Debug, Serialize)]

@@ -3,13 +3,13 @@
 use super::super::complain;
 use super::{Made, Options, limits_table as table, this_program};
 use crate::report::plain_chapter;
-use crate::scene::{AnyScene, Scene, open};
 use crate::stability::loop_limits::{Cell, Criterion, Loop, Quantity, Store, Survey};
-use crate::written::write_text;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+use surefoot_sim::scene::{AnyScene, Scene, open};
+use surefoot_sim::written::write_text;
 
 /// Scenes whose limits are on the page of all charts.
 pub(super) const SCENES: [&str; 2] = ["experiment-1", "experiment-2"];

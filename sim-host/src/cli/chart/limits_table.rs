@@ -5,12 +5,12 @@ use crate::stability::loop_limits::{
     ACCELEROMETER_NOISE, Cell, Footing, Found, GYROSCOPE_NOISE, HALVINGS, Loop, Manner, Quantity,
     RUNAWAY, Survey, Tolerance,
 };
-use crate::written::write_rows;
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
 use surefoot::model::robots::biped;
+use surefoot_sim::written::write_rows;
 
 /// A row of the CSV file: one limit.
 #[derive(Serialize)]

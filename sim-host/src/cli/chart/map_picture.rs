@@ -1,9 +1,9 @@
 //! How a map looks.
 
 use crate::chart::{CellAxis, CellKind, CellLine, HeatMap};
-use crate::stability::FailureKind;
 use crate::stability::loop_limits::Manner;
 use crate::stability::maps::{Axis, Column, Failure, Foretold, Map, Outcome, significant};
+use surefoot_mechanics::forecast::FailureKind;
 
 /// Of cells that work: nearly white, so that what fails stands out.
 const WORKS: (u8, u8, u8) = (240, 246, 242);

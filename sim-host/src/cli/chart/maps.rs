@@ -3,12 +3,12 @@
 use super::map_picture::picture;
 use crate::stability::maps::{Column, Failure, Foretold, Map, Outcome, maps, survey, tally, tell};
 use crate::stability::{MapStore, Tally};
-use crate::written::write_rows;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+use surefoot_sim::written::write_rows;
 
 /// Maps, and the columns of each.
 pub(super) struct Mapped {

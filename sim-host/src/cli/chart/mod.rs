@@ -14,11 +14,11 @@ use super::{bad_input, say};
 use crate::precision::machine;
 use crate::report::{Chapter, charts_page};
 use crate::stability::loop_limits::Quantity;
-use crate::written::write_text;
 use clap::Parser;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use surefoot_sim::written::write_text;
 
 /// Options of `chart`.
 #[derive(Debug, Parser)]

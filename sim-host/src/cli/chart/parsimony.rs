@@ -4,9 +4,9 @@ use super::ladder_table::LadderTable;
 use super::{Made, Options};
 use crate::parsimony::{MechanismRung, Rung, climb, climb_mechanism};
 use crate::report::plain_chapter;
-use crate::scene::{AnyScene, open};
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
+use surefoot_sim::scene::{AnyScene, open};
 
 /// What is climbed unless a scene is named: a robot, a tree in a plane with parts fixed to it, and a free body.
 const SCENES: [&str; 3] = ["experiment-1", "hinged-chain", "box-drop"];

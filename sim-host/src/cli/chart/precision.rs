@@ -6,13 +6,13 @@ use crate::precision::{
     ControllerPrecision, Effort, Mujoco, PROBLEMS, Survey, controller_figures,
     controller_precision, figures, file_of, machine, precision_chapter, survey, write_rows,
 };
-use crate::written::write_text;
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
+use surefoot_sim::written::write_text;
 
 /// Charts all problems, or those that are asked for.
 pub(super) fn chart(options: &Options) -> Result<Made, String> {

@@ -1,13 +1,12 @@
 //! `surefoot chart stability`: the longest steps of methods on mechanisms.
 
 use crate::report::{StepRow, StepTable};
-use crate::stability::{
-    Agreement, FailureKind, Limit, RATIO, Scan, ScanStore, all_problems, scan_problems,
-};
-use crate::written::write_rows;
+use crate::stability::{Agreement, Limit, RATIO, Scan, ScanStore, all_problems, scan_problems};
 use indicatif::ProgressBar;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use surefoot_mechanics::forecast::FailureKind;
+use surefoot_sim::written::write_rows;
 
 /// Takes up what an earlier call has left, and scans the other methods and problems, with a bar over them.
 pub(super) fn scan_steps(folder: &Path, fresh: bool) -> Result<Scan, String> {

@@ -7,10 +7,10 @@ use super::super::problem::{Omission, Problem};
 use super::MUJOCO_INTEGRATORS;
 use super::mjcf::{MujocoModel, mujoco_model};
 use super::mujoco::{Mujoco, NoMujoco};
-use crate::mechanism::start_bodies;
-use crate::multibody::{BodyState, System};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
+use surefoot_multibody::{BodyState, System};
+use surefoot_sim::mechanism::start_bodies;
 
 /// All integrators on a problem, or why they do not play it.
 pub(in super::super) fn peer_contenders(

@@ -1,11 +1,11 @@
 //! A system of bodies and joints as a MuJoCo model, with its start.
 
-use crate::contact::Floor;
-use crate::multibody::{Joint, JointConstraint, Link, Simulation, System};
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::fmt::Write;
 use surefoot::spatial::Quaternion;
+use surefoot_multibody::contact::Floor;
+use surefoot_multibody::{Joint, JointConstraint, Link, Simulation, System};
 
 /// A model and its start. Bodies are called `b` with their number in the system; their frames are principal ones.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -4,8 +4,8 @@ use super::manner::Manner;
 use super::quantity::Quantity;
 use super::search::{Found, search};
 use super::trial::{Footing, Loop, Trial};
-use crate::scene::SceneError;
 use serde::{Deserialize, Serialize};
+use surefoot_sim::scene::SceneError;
 
 /// The shortest step that is tried, as a share of the first: 1/2⁴.
 pub const HALVINGS: usize = 6;

@@ -1,9 +1,9 @@
 //! What "works" means.
 
-use crate::record::Sample;
-use crate::scene::SetPoint;
 use serde::{Deserialize, Serialize};
 use surefoot::spatial::{Quaternion, orientation_error};
+use surefoot_sim::record::Sample;
+use surefoot_sim::scene::SetPoint;
 
 /// A run works if it ends upright, without a failure, and stays at the set point to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

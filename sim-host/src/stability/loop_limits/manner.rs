@@ -29,15 +29,15 @@
 //! several centimetres.
 
 use super::criterion::{Criterion, last_seconds};
-use crate::closed_loop::{Run, Stop};
-use crate::contact::ContactState;
-use crate::record::{EventKind, Sample};
-use crate::robot::{Limits, Robot};
-use crate::scene::{Feet, Scene};
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 use surefoot::balance::{Fault, StopReason};
 use surefoot::spatial::Quaternion;
+use surefoot_multibody::contact::ContactState;
+use surefoot_sim::closed_loop::{Run, Stop};
+use surefoot_sim::record::{EventKind, Sample};
+use surefoot_sim::robot::{Limits, Robot};
+use surefoot_sim::scene::{Feet, Scene};
 
 /// How a run fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -247,7 +247,7 @@ fn corners_down(sample: &Sample, robot: &Robot) -> Vec<Vec<Option<Vector2<f64>>>
     };
     let of_feet = robot.feet.iter().zip(contacts).map(|(foot, states)| {
         let pose = &poses[foot.body];
-        let place = |(point, state): (&crate::robot::FootPoint, &ContactState)| {
+        let place = |(point, state): (&surefoot_sim::robot::FootPoint, &ContactState)| {
             is_down(*state).then(|| pose.transform_point(point.at).xy())
         };
         foot.points.iter().zip(states).map(place).collect()

@@ -1,9 +1,9 @@
 //! What a limit is sought of, and where it is looked for.
 
 use super::search::{Ladder, Tolerance};
-use crate::scene::{Feet, Scene};
 use serde::{Deserialize, Serialize};
 use surefoot::model::robots::biped;
+use surefoot_sim::scene::{Feet, Scene};
 
 /// A quantity of a scene that can be made harder until the loop fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, clap::ValueEnum)]

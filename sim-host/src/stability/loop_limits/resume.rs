@@ -4,11 +4,11 @@ use super::cell::{Cell, HALVINGS};
 use super::criterion::Criterion;
 use super::manner::{BEFORE_S, LEANING_DEG, RUNAWAY, RUNAWAY_TICKS, SLIP_M};
 use super::quantity::{ACCELEROMETER_NOISE, GYROSCOPE_NOISE, Quantity};
-use crate::scene::Scene;
-use crate::written::write_text;
 use serde::{Deserialize, Serialize};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use surefoot_sim::scene::Scene;
+use surefoot_sim::written::write_text;
 
 /// To be raised when a rule changes that is not in a number of its own.
 const RULES: u32 = 1;

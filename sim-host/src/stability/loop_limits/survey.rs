@@ -5,9 +5,9 @@ use super::criterion::Criterion;
 use super::quantity::Quantity;
 use super::resume::{Store, StoreError};
 use super::trial::{Footing, Loop, Trial};
-use crate::scene::{Scene, SceneError};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use surefoot_sim::scene::{Scene, SceneError};
 
 /// Why a survey has stopped. What was finished before is kept.
 #[derive(Debug, thiserror::Error)]

@@ -3,13 +3,13 @@
 use super::criterion::Criterion;
 use super::manner::{Ending, Manner};
 use super::quantity::Quantity;
-use crate::closed_loop::{
-    Commanded, ControlFailure, Controller, Run, Scalar, bare_controller, controller, run,
-};
-use crate::plant::PlantState;
-use crate::scene::{Feet, Outline, Scene, SceneError};
 use serde::{Deserialize, Serialize};
 use surefoot::balance::{Fault, StopReason};
+use surefoot_sim::closed_loop::{
+    Commanded, ControlFailure, Controller, Run, Scalar, bare_controller, controller, run,
+};
+use surefoot_sim::plant::PlantState;
+use surefoot_sim::scene::{Feet, Outline, Scene, SceneError};
 
 /// What the feet are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -2,8 +2,9 @@
 
 use super::axis::Axis;
 use super::outcome::{Failure, Outcome};
-use crate::stability::{Agreement, FailureKind, Forecast};
+use crate::stability::Agreement;
 use serde::{Deserialize, Serialize};
+use surefoot_mechanics::forecast::{FailureKind, Forecast};
 
 /// Everything that is asked at one value of `x`.
 pub struct Stack {

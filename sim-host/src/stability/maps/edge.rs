@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::column::Foretold;
-use crate::stability::forecast::SHARE;
+use surefoot_mechanics::forecast::SHARE;
 
 /// Bisections between the ends of an axis: to a hundredth of it.
 const BISECTIONS: usize = 7;

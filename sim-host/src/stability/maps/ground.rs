@@ -13,11 +13,11 @@
 //! [`FALLING_S`], since a robot lives through violations that are shorter than it takes to tip. Whether it comes
 //! to stand on its soles at all is asked in [`super::landing`].
 
-use crate::record::Sample;
-use crate::robot::Robot;
-use crate::scene::{Feet, Scene};
 use crate::stability::loop_limits::{Criterion, Loop, play};
 use nalgebra::Vector3;
+use surefoot_sim::record::Sample;
+use surefoot_sim::robot::Robot;
+use surefoot_sim::scene::{Feet, Scene};
 
 /// `√(z/g)` of a body 1 m above the ground, in which a fall grows by a factor e, s.
 pub(super) const FALLING_S: f64 = 0.32;

@@ -5,8 +5,8 @@
 //! have grown by a factor e; so long is looked at, and not whether the robot then gets to where it should.
 
 use super::ground::FALLING_S;
-use crate::scene::{Feet, Scene};
 use crate::stability::loop_limits::{Loop, has_flat_sole, play, runs_away};
+use surefoot_sim::scene::{Feet, Scene};
 
 /// What is looked at: a fall's time after one fourth of it, in which all that drops has touched down.
 const BEGINNING_S: f64 = 1.25 * FALLING_S;

@@ -6,9 +6,9 @@ use super::edge::edge;
 use super::ground::should_stand;
 use super::landing::should_land;
 use super::outcome::{Failure, Outcome};
-use crate::scene::{Scene, load};
 use crate::stability::TreeProblemError;
 use crate::stability::loop_limits::{Criterion, Footing, Loop, Manner, Quantity, Trial};
+use surefoot_sim::scene::{Scene, load};
 
 /// Control rates, Hz.
 const RATES: [f64; 2] = [15.0, 1000.0];

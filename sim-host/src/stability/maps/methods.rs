@@ -3,10 +3,10 @@
 use super::axis::Axis;
 use super::column::Map;
 use super::yielding::steps_of;
-use crate::integrators::Method;
-use crate::mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
-use crate::scene::{AnyScene, Mechanism, open};
 use crate::stability::{Problem, TreeProblemError, floating_chain};
+use surefoot_mechanics::integrators::Method;
+use surefoot_mechanics::systems::{DoubleSphericalPendulum, FreeRigidBody};
+use surefoot_sim::scene::{AnyScene, Mechanism, open};
 
 /// Angular velocity's direction: that of (2.52).
 const SPIN: [f64; 3] = [0.0, 0.6, 0.8];

@@ -1,7 +1,8 @@
 //! What becomes of a cell.
 
-use crate::stability::{FailureKind, Verdict, loop_limits::Manner};
+use crate::stability::loop_limits::Manner;
 use serde::{Deserialize, Serialize};
+use surefoot_mechanics::forecast::{FailureKind, Verdict};
 
 /// What becomes of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

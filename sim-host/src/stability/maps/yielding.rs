@@ -2,10 +2,10 @@
 
 use super::axis::Axis;
 use super::column::{Map, Stack};
-use crate::contact::Floor;
-use crate::integrators::Method;
-use crate::scene::{AnyScene, Feet, Mechanism, load, open};
 use crate::stability::{Problem, TreeProblemError, motion_of, standing};
+use surefoot_mechanics::integrators::Method;
+use surefoot_multibody::contact::Floor;
+use surefoot_sim::scene::{AnyScene, Feet, Mechanism, load, open};
 
 /// Range of the stiffness, N/m a point; rubber has 75 000.
 const STIFFNESS: [f64; 2] = [3e3, 3e6];
