@@ -13,14 +13,18 @@
 //! ```
 //! The text's `Lᵀ P L` equals `Aᵀ (P − U D⁻¹ Uᵀ) A` by (3.57) and costs twice as much.
 
+use super::floating_root;
+use super::forward_limbs::{LimbState, first_pass, inboard_pass, last_pass};
 use super::inverse_dynamics::{VelocityTerms, at_joint, carried, velocity_terms};
 use super::joint_block::JointBlock;
 use super::joint_motion::{JointMotion, own, own_one};
+use super::joint_poses::relative;
+use super::lanes::{Lanes, along_limb};
 use super::reversed::reversed;
 use super::{DynamicsFault, JointPoses};
 use crate::Real;
 use crate::model::{Axis, JointKind, Node, Tree};
-use crate::spatial::{ArticulatedInertia, Twist, Wrench};
+use crate::spatial::{ArticulatedInertia, AxisTurn, Quaternion, Twist, Wrench};
 use nalgebra::Vector3;
 
 /// What the inboard pass leaves for the outboard pass at a joint with one degree of freedom.
@@ -52,16 +56,16 @@ pub fn forward_dynamics<T: Real, const N: usize, const NQ: usize, const NV: usiz
     torques: &[T; NV],
     external: Option<&[Wrench<T>; N]>,
 ) -> Result<[T; NV], DynamicsFault> {
-    if tree.has_reversed || tree.has_rotors {
-        return with_rotors(tree, joint_poses, velocities, torques, external);
+    if tree.has_reversed {
+        return along_axes(tree, joint_poses, velocities, torques, external);
     }
-    recursion::<T, N, NQ, NV, false>(tree, joint_poses, velocities, torques, external)
+    recursion(tree, joint_poses, velocities, torques, external)
 }
 
-/// The same for trees with rotors or reversed joints. Apart, so that others do not pay for them.
+/// The same for trees with reversed joints. Apart, so that others do not pay for them.
 #[cold]
 #[inline(never)]
-fn with_rotors<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+fn along_axes<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     tree: &Tree<T, N, NQ, NV>,
     joint_poses: &JointPoses<T, N, NQ>,
     velocities: &[T; NV],
@@ -69,123 +73,250 @@ fn with_rotors<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     external: Option<&[Wrench<T>; N]>,
 ) -> Result<[T; NV], DynamicsFault> {
     let (velocities, torques) = (reversed(tree, velocities), reversed(tree, torques));
-    let along =
-        recursion::<T, N, NQ, NV, true>(tree, joint_poses, &velocities, &torques, external)?;
+    let along = recursion(tree, joint_poses, &velocities, &torques, external)?;
     Ok(reversed(tree, &along))
 }
 
-#[inline]
-fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize, const HAS_ROTORS: bool>(
+/// What every pass reads.
+pub(super) struct Input<'a, T, const N: usize, const NQ: usize, const NV: usize> {
+    pub tree: &'a Tree<T, N, NQ, NV>,
+    pub joint_poses: &'a JointPoses<T, N, NQ>,
+    pub velocities: &'a [T; NV],
+    pub torques: &'a [T; NV],
+    pub external: Option<&'a [Wrench<T>; N]>,
+}
+
+#[inline(never)]
+fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     tree: &Tree<T, N, NQ, NV>,
     joint_poses: &JointPoses<T, N, NQ>,
     velocities: &[T; NV],
     torques: &[T; NV],
     external: Option<&[Wrench<T>; N]>,
 ) -> Result<[T; NV], DynamicsFault> {
-    let still = VelocityTerms { omega: Vector3::zeros(), product: Twist::zero() };
-    let mut terms = [still; N];
-    let mut p = [ArticulatedInertia::zero(); N];
-    let mut z = [Wrench::zero(); N];
+    let input = Input { tree, joint_poses, velocities, torques, external };
+    let mut states = [LimbState::zero(); N];
+    // Of bodies that others than the next of their limb hang from: `P` and `z`.
+    let mut bodies = [(ArticulatedInertia::zero(), Wrench::zero()); N];
 
-    for (k, node, pose) in joint_poses.joints(&tree.nodes) {
-        let omega = node.inboard.and_then(|i| terms.get(i)).unwrap_or(&still).omega;
-        let own = velocity_terms(node, &pose, omega, &joint_poses.positions, velocities);
-        p[k] = node.inertia.into();
-        z[k] = gyroscopic_wrench(node, own.omega);
-        terms[k] = own;
+    for (k, node) in tree.nodes.iter().enumerate() {
+        if node.limb > 0 {
+            along_limb!(T, k, node, first_pass(&input, &mut states));
+        } else if !matches!(node.kind, JointKind::Revolute(_)) {
+            let omega = match input.floating(node) {
+                Some((_, omega)) => omega,
+                None => input.terms(k, node, &states).omega,
+            };
+            if let Some(state) = states.get_mut(k) {
+                state.omega = omega.into();
+            }
+        }
     }
-    if let Some(external) = external {
-        for ((z, node), applied) in z.iter_mut().zip(&tree.nodes).zip(external) {
-            *z -= at_joint(node, applied);
+    for (k, (node, state)) in tree.nodes.iter().zip(&states).enumerate() {
+        if (node.is_branch || !matches!(node.kind, JointKind::Revolute(_)))
+            && let Some(body) = bodies.get_mut(k)
+        {
+            *body = (node.inertia.into(), input.own_wrench(k, node, state.omega.into()));
         }
     }
 
-    let idle = Hinge { image: Wrench::zero(), inverse: T::zero(), excess: T::zero() };
-    let mut hinges = [idle; N];
-    for (k, node, pose) in joint_poses.joints(&tree.nodes).rev() {
-        let (projected, bias) = match &node.kind {
-            JointKind::Fixed => (p[k], z[k] + p[k].product(terms[k].product)),
-            JointKind::Revolute(axis) => {
-                let torque = own_one(node, torques);
-                let rotor = HAS_ROTORS.then_some(node.rotor_inertia);
-                let (projected, bias, hinge) =
-                    project_turn(*axis, &p[k], &z[k], terms[k].product, torque, rotor)
-                        .ok_or(DynamicsFault::SingularInertia { joint: k })?;
-                hinges[k] = hinge;
-                (projected, bias)
-            }
-            JointKind::Prismatic(axis) => {
-                let (image, d, force) = match axis {
-                    Axis::X => slide_column::<T, 0>(&p[k], &z[k]),
-                    Axis::Y => slide_column::<T, 1>(&p[k], &z[k]),
-                    Axis::Z => slide_column::<T, 2>(&p[k], &z[k]),
-                };
-                let d = if HAS_ROTORS { d + node.rotor_inertia } else { d };
-                let hinge = hinge(image, d, own_one(node, torques) - force)
-                    .ok_or(DynamicsFault::SingularInertia { joint: k })?;
-                hinges[k] = hinge;
-                project_hinge(&p[k], &z[k], &hinge, terms[k].product)
-            }
-            // A joint of the root passes nothing on.
-            _ if node.inboard.is_none() => continue,
-            _ => project_block(node, joint_poses, velocities, torques, &p[k], &z[k], terms[k])
-                .ok_or(DynamicsFault::SingularInertia { joint: k })?,
-        };
-        if let Some(i) = node.inboard
-            && let (Some(p), Some(z)) = (p.get_mut(i), z.get_mut(i))
+    for (k, node) in tree.nodes.iter().enumerate().rev() {
+        if node.limb > 0 {
+            along_limb!(T, k, node, inboard_pass(&input, &mut states, &mut bodies))?;
+        } else if let (Some(i), false) = (node.inboard, matches!(node.kind, JointKind::Revolute(_)))
         {
-            let turned = projected.rotated_inboard(&pose.rotation);
-            *p = *p + if pose.is_translated { turned.shifted(pose.translation) } else { turned };
-            *z += carried(&pose, &bias);
+            let (p, z) = input.across_joint(k, node, &states, &bodies)?;
+            if let Some(body) = bodies.get_mut(i) {
+                *body = (body.0 + p, body.1 + z);
+            }
         }
     }
 
     let mut result = [T::zero(); NV];
-    let mut a = [Twist::zero(); N];
-    for (k, node, pose) in joint_poses.joints(&tree.nodes) {
-        let arrived = match node.inboard.and_then(|i| a.get(i)) {
-            None => {
-                Twist { linear: pose.rotation.outboard(-tree.gravity), angular: Vector3::zeros() }
+    for (k, node) in tree.nodes.iter().enumerate() {
+        if node.limb > 0 {
+            along_limb!(T, k, node, last_pass(&input, &mut states, &mut result));
+        } else if !matches!(node.kind, JointKind::Revolute(_)) {
+            let acceleration = if let JointKind::Floating = node.kind {
+                input
+                    .accelerate_floating(k, node, &bodies, &mut result)
+                    .ok_or(DynamicsFault::SingularInertia { joint: k })?
+            } else {
+                input.accelerate(k, node, &states, &bodies, &mut result)?
+            };
+            if let Some(state) = states.get_mut(k) {
+                state.keep(acceleration);
             }
+        }
+    }
+    match result.iter().position(|x| !x.is_finite()) {
+        Some(index) => Err(DynamicsFault::ResultNotFinite { index }),
+        None => Ok(result),
+    }
+}
+
+impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Input<'_, T, N, NQ, NV> {
+    /// `ω` and `c` of a joint that is not revolute.
+    #[inline(always)]
+    fn terms(&self, k: usize, node: &Node<T>, states: &[LimbState<T>; N]) -> VelocityTerms<T> {
+        let omega = node.inboard.and_then(|i| states.get(i)).map(|state| state.omega.into());
+        let positions = &self.joint_poses.positions;
+        let pose = relative(node, self.turn(k), positions);
+        velocity_terms(node, &pose, omega.unwrap_or(Vector3::zeros()), positions, self.velocities)
+    }
+
+    /// `v` and `ω` of a floating joint.
+    #[inline(always)]
+    fn floating(&self, node: &Node<T>) -> Option<(Vector3<T>, Vector3<T>)> {
+        let JointKind::Floating = node.kind else { return None };
+        let [a, b, c, d, e, f] = *self.velocities.get(node.velocity_start..)?.first_chunk()?;
+        Some((Vector3::new(a, b, c), Vector3::new(d, e, f)))
+    }
+
+    /// The same as [`Self::accelerate`] for a floating joint, whose map is the identity.
+    #[inline(always)]
+    fn accelerate_floating(
+        &self,
+        k: usize,
+        node: &Node<T>,
+        bodies: &[(ArticulatedInertia<T>, Wrench<T>); N],
+        result: &mut [T; NV],
+    ) -> Option<Twist<T>> {
+        let (v, omega) = self.floating(node)?;
+        let quaternion =
+            self.joint_poses.positions.get(node.position_start + 3..)?.first_chunk()?;
+        let rotation = Quaternion::from_array(*quaternion).to_matrix();
+        let (p, z) = bodies.get(k)?;
+        let torque = *self.torques.get(node.velocity_start..)?.first_chunk()?;
+        let acceleration = floating_root::acceleration(p, &(Wrench::from_array(torque) - *z))?;
+        // Less what the frame has without the joint: gravity's, and ω × v of the components' change.
+        let linear = acceleration.linear + rotation.tr_mul(&self.tree.gravity) - omega.cross(&v);
+        *result.get_mut(node.velocity_start..)?.first_chunk_mut()? =
+            Twist { linear, angular: acceleration.angular }.to_array();
+        Some(acceleration)
+    }
+
+    #[inline(always)]
+    fn turn(&self, k: usize) -> AxisTurn<T> {
+        let none = AxisTurn { cosine: T::one(), sine: T::zero() };
+        self.joint_poses.turns.get(k).copied().unwrap_or(none)
+    }
+
+    /// `(ω × (ω × h), ω × Jω)`, what a body asks for when its frame's origin does not accelerate, less
+    /// what acts on it.
+    #[inline(always)]
+    pub fn own_wrench(&self, k: usize, node: &Node<T>, omega: Vector3<T>) -> Wrench<T> {
+        let force = if node.is_eccentric {
+            omega.cross(&omega.cross(&node.inertia.first_moment))
+        } else {
+            Vector3::zeros()
+        };
+        let own = Wrench { force, torque: node.gyroscopic_torque(omega) };
+        self.external
+            .and_then(|all| all.get(k))
+            .map_or(own, |applied| own - at_joint(node, applied))
+    }
+
+    /// What a joint that is not revolute passes inboard.
+    #[inline(never)]
+    fn across_joint(
+        &self,
+        k: usize,
+        node: &Node<T>,
+        states: &[LimbState<T>; N],
+        bodies: &[(ArticulatedInertia<T>, Wrench<T>); N],
+    ) -> Result<(ArticulatedInertia<T>, Wrench<T>), DynamicsFault> {
+        let singular = DynamicsFault::SingularInertia { joint: k };
+        let Some((p, z)) = bodies.get(k) else { return Err(singular) };
+        let terms = self.terms(k, node, states);
+        let (projected, bias) = match &node.kind {
+            JointKind::Fixed => (*p, *z + p.product(terms.product)),
+            JointKind::Prismatic(axis) => {
+                let hinge = self.slide(node, *axis, p, z).ok_or(singular)?;
+                project_hinge(p, z, &hinge, terms.product)
+            }
+            _ => project_block(node, self.joint_poses, self.velocities, self.torques, p, z, terms)
+                .ok_or(singular)?,
+        };
+        let pose = relative(node, self.turn(k), &self.joint_poses.positions);
+        let turned = projected.rotated_inboard(&pose.rotation);
+        let carried_inertia =
+            if pose.is_translated { turned.shifted(pose.translation) } else { turned };
+        Ok((carried_inertia, carried(&pose, &bias)))
+    }
+
+    /// `U`, `D⁻¹` and `u` of a slide.
+    #[inline(always)]
+    fn slide(
+        &self,
+        node: &Node<T>,
+        axis: Axis,
+        p: &ArticulatedInertia<T>,
+        z: &Wrench<T>,
+    ) -> Option<Hinge<T>> {
+        let (image, d, force) = match axis {
+            Axis::X => slide_column::<T, 0>(p, z),
+            Axis::Y => slide_column::<T, 1>(p, z),
+            Axis::Z => slide_column::<T, 2>(p, z),
+        };
+        hinge(image, d + node.rotor_inertia, own_one(node, self.torques) - force)
+    }
+
+    /// The acceleration behind a joint that is not revolute, and its own into the result.
+    #[inline(never)]
+    fn accelerate(
+        &self,
+        k: usize,
+        node: &Node<T>,
+        states: &[LimbState<T>; N],
+        bodies: &[(ArticulatedInertia<T>, Wrench<T>); N],
+        result: &mut [T; NV],
+    ) -> Result<Twist<T>, DynamicsFault> {
+        let singular = DynamicsFault::SingularInertia { joint: k };
+        let Some((p, z)) = bodies.get(k) else { return Err(singular) };
+        let pose = relative(node, self.turn(k), &self.joint_poses.positions);
+        let arrived = match node.inboard.and_then(|i| states.get(i)) {
+            None => Twist {
+                linear: pose.rotation.outboard(-self.tree.gravity),
+                angular: Vector3::zeros(),
+            },
             Some(inboard) => {
-                let at_joint = if pose.is_translated {
+                let inboard = inboard.acceleration();
+                let linear = if pose.is_translated {
                     inboard.linear + inboard.angular.cross(&pose.translation)
                 } else {
                     inboard.linear
                 };
                 Twist {
-                    linear: pose.rotation.outboard(at_joint),
+                    linear: pose.rotation.outboard(linear),
                     angular: pose.rotation.outboard(inboard.angular),
                 }
             }
         };
-        let mut acceleration = arrived + terms[k].product;
+        let mut acceleration = arrived + self.terms(k, node, states).product;
         match &node.kind {
-            JointKind::Fixed => {}
-            JointKind::Revolute(axis) => {
-                let beta_dot = hinge_acceleration(&hinges[k], acceleration);
-                match axis {
-                    Axis::X => acceleration.angular.x += beta_dot,
-                    Axis::Y => acceleration.angular.y += beta_dot,
-                    Axis::Z => acceleration.angular.z += beta_dot,
-                }
-                store(&mut result, node, beta_dot);
-            }
+            JointKind::Fixed | JointKind::Revolute(_) => {}
             JointKind::Prismatic(axis) => {
-                let beta_dot = hinge_acceleration(&hinges[k], acceleration);
+                let hinge = self.slide(node, *axis, p, z).ok_or(singular)?;
+                let beta_dot = hinge_acceleration(&hinge, acceleration);
                 match axis {
                     Axis::X => acceleration.linear.x += beta_dot,
                     Axis::Y => acceleration.linear.y += beta_dot,
                     Axis::Z => acceleration.linear.z += beta_dot,
                 }
-                store(&mut result, node, beta_dot);
+                if let Some(entry) = result.get_mut(node.velocity_start) {
+                    *entry = beta_dot;
+                }
             }
             _ => {
-                let motion = JointMotion::new(node, &joint_poses.positions, &own(node, velocities));
-                let block = JointBlock::new(&p[k], &motion)
-                    .ok_or(DynamicsFault::SingularInertia { joint: k })?;
-                let wrench = p[k].product(acceleration) + z[k];
-                let mut beta_dot = own(node, torques);
+                let motion = JointMotion::new(
+                    node,
+                    &self.joint_poses.positions,
+                    &own(node, self.velocities),
+                );
+                let block = JointBlock::new(p, &motion).ok_or(singular)?;
+                let wrench = p.product(acceleration) + *z;
+                let mut beta_dot = own(node, self.torques);
                 for (b, h) in beta_dot.iter_mut().zip(&motion.map) {
                     *b -= h.power(wrench);
                 }
@@ -197,23 +328,8 @@ fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize, const HA
                 }
             }
         }
-        a[k] = acceleration;
+        Ok(acceleration)
     }
-    match result.iter().position(|x| !x.is_finite()) {
-        Some(index) => Err(DynamicsFault::ResultNotFinite { index }),
-        None => Ok(result),
-    }
-}
-
-/// `(ω × (ω × h), ω × Jω)`: what a body asks for when its frame's origin does not accelerate.
-#[inline(always)]
-fn gyroscopic_wrench<T: Real>(node: &Node<T>, omega: Vector3<T>) -> Wrench<T> {
-    let force = if node.is_eccentric {
-        omega.cross(&omega.cross(&node.inertia.first_moment))
-    } else {
-        Vector3::zeros()
-    };
-    Wrench { force, torque: node.gyroscopic_torque(omega) }
 }
 
 /// The inboard step across a revolute joint, before it is carried to the inboard frame: `P − U D⁻¹ Uᵀ`,
@@ -281,13 +397,6 @@ fn project_hinge<T: Real>(
 #[inline(always)]
 fn hinge_acceleration<T: Real>(hinge: &Hinge<T>, arrived: Twist<T>) -> T {
     hinge.inverse * (hinge.excess - arrived.power(hinge.image))
-}
-
-#[inline(always)]
-fn store<T: Real, const NV: usize>(all: &mut [T; NV], node: &Node<T>, value: T) {
-    if let Some(entry) = all.get_mut(node.velocity_start) {
-        *entry = value;
-    }
 }
 
 /// The same projection for a joint with several degrees of freedom.

@@ -15,12 +15,16 @@
 
 mod columns;
 mod fault;
+mod floating_root;
 mod forward_dynamics;
 mod forward_kinematics;
+mod forward_limbs;
 mod inverse_dynamics;
 mod joint_block;
 mod joint_motion;
 mod joint_poses;
+pub(crate) mod lanes;
+mod limb_inertia;
 mod mass_matrix;
 mod reversed;
 

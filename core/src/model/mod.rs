@@ -12,6 +12,7 @@ mod compile_time;
 mod fault;
 mod general_joint;
 mod joint;
+mod limbs;
 mod link;
 mod node;
 pub mod robots;

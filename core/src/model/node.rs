@@ -20,6 +20,13 @@ pub(crate) struct Node<T> {
     pub is_reversed: bool,
     /// Index of the inboard node; `None` for the inertial frame.
     pub inboard: Option<usize>,
+    /// Whether joints hang from this body that are not the next of its limb.
+    pub is_branch: bool,
+    /// How many joints the limb has that begins with this one: revolute joints, each inboard of the
+    /// next alone. Zero inside a limb, for other joints, and for the second of twin limbs.
+    pub limb: usize,
+    /// Where the second limb begins that has joints of the same kinds; zero where there is none.
+    pub twin: usize,
     /// First coordinate and first velocity of the joint.
     pub position_start: usize,
     pub velocity_start: usize,
@@ -92,6 +99,9 @@ pub(super) const EMPTY: Node<f64> = Node {
     kind: JointKind::Fixed,
     is_reversed: false,
     inboard: None,
+    is_branch: false,
+    limb: 0,
+    twin: 0,
     position_start: 0,
     velocity_start: 0,
     offset: Vector3::new(0.0, 0.0, 0.0),

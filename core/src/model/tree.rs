@@ -5,6 +5,7 @@ use super::compile_time::{
     IDENTITY, M, V, dot, frame_with_z, is_finite, matrix_of_quaternion, minus, normalized, product,
     times, transpose,
 };
+use super::limbs::with_limbs;
 use super::link::Connection;
 use super::node::EMPTY;
 use super::{Axis, InertiaShape, JointKind, Link, LinkFault, Node, TreeFault};
@@ -141,6 +142,7 @@ impl<const N: usize, const NQ: usize, const NV: usize> Tree<f64, N, NQ, NV> {
         if velocities != NV {
             return Err(TreeFault::Velocities { given: NV, needed: velocities });
         }
+        let nodes = with_limbs(nodes);
         Ok(Self { nodes, has_reversed, has_rotors, gravity: Vector3::new(0.0, 0.0, -GRAVITY) })
     }
 
@@ -318,6 +320,9 @@ const fn node(
         kind,
         is_reversed,
         inboard,
+        is_branch: false,
+        limb: 0,
+        twin: 0,
         position_start: 0,
         velocity_start: 0,
         offset: vector(offset),

@@ -2,6 +2,9 @@
 
 mod sine_cosine;
 
+use crate::dynamics::lanes::Lanes;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use crate::dynamics::lanes::Pair;
 use crate::model::{GeneralJoint, GeneralMotion};
 
 mod sealed {
@@ -16,6 +19,10 @@ mod sealed {
 /// for host and target alike. Sine and cosine are our own ([`Real::sine_cosine`]), made of plain
 /// additions and multiplications. Both choices make the same source give the same bits everywhere.
 pub trait Real: nalgebra::RealField + Copy + sealed::Sealed {
+    /// Two of it in one register, or itself where the processor has none for two.
+    #[doc(hidden)]
+    type Pair: Lanes<Scalar = Self>;
+
     /// The nearest scalar to a constant.
     fn of(constant: f64) -> Self;
 
@@ -47,6 +54,10 @@ pub trait Real: nalgebra::RealField + Copy + sealed::Sealed {
 }
 
 impl Real for f32 {
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    type Pair = Pair<wide::f32x4>;
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    type Pair = Self;
     #[inline(always)]
     fn of(constant: f64) -> Self {
         constant as f32
@@ -78,6 +89,10 @@ impl Real for f32 {
 }
 
 impl Real for f64 {
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    type Pair = Pair<wide::f64x2>;
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    type Pair = Self;
     #[inline(always)]
     fn of(constant: f64) -> Self {
         constant
