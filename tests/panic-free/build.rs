@@ -11,7 +11,7 @@ fn main() {
         return;
     }
     let package = env::var("CARGO_MANIFEST_DIR").expect("cargo sets it for build scripts");
-    let memory = Path::new(&package).join("../../firmware/memory/stm32f405.x");
+    let memory = Path::new(&package).join("../../memory.x");
     println!("cargo::rerun-if-changed={}", memory.display());
     let out = env::var("OUT_DIR").expect("cargo sets it for build scripts");
     fs::copy(&memory, Path::new(&out).join("memory.x")).expect("cargo's folder can be written");
