@@ -52,9 +52,11 @@ impl Live {
         let steps_per_tick = (1.0 / (scene.controller.rate_hz * step)).round() as u64;
         let mut plant = plant(&scene).map_err(|failure| failure.to_string())?;
         let state = plant.state().map_err(|failure| failure.to_string())?;
+        let controller = controller(&scene, Scalar::F32);
+        let (tick_s, place) = (steps_per_tick as f64 * step, controller.filter_place());
         Ok(Self {
-            controller: controller(&scene, Scalar::F32),
-            sensors: Sensors::of_robot(&scene.sensing, steps_per_tick as f64 * step, &robot),
+            sensors: Sensors::of_robot(&scene.sensing, tick_s, &robot, place),
+            controller,
             motors: Motors::new(&scene.acting, step, steps_per_tick as usize, joints),
             command: Commanded { torques: vec![0.0; joints], desired_wrench: [0.0; 6] },
             contacts: PerPoint::new(),
@@ -113,16 +115,23 @@ impl Live {
             self.controller.touch(time_s, &feet);
         }
         let seen = self.plant.observe().map_err(|failure| failure.to_string())?;
-        self.controller.press(time_s, &seen.foot_forces);
         if self.sensors.is_estimating() {
-            self.sensors.see_feet(seen.foot_forces.iter().copied(), None);
+            let (forces, planned) = (seen.foot_forces.iter().copied(), self.controller.planned());
+            let switched = self.sensors.see_feet(forces, planned);
+            self.controller.press(time_s, &switched);
             if let Some(force) = self.controller.support() {
                 self.sensors.see_feet_force(force.into());
             }
+        } else {
+            self.controller.press(time_s, &seen.foot_forces);
         }
-        let measured = self.sensors.read(&self.state);
+        self.sensors.read(&self.state);
+        if let Some((readings, start)) = self.sensors.readings() {
+            self.controller.sense(readings, start);
+        }
         if self.has_touched {
-            self.command = self.controller.tick(measured).map_err(|failure| failure.to_string())?;
+            let command = self.controller.tick(self.sensors.seen());
+            self.command = command.map_err(|failure| failure.to_string())?;
         }
         if let Some(fault) = self.sensors.fault() {
             return Err(fault.to_string());
