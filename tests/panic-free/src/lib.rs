@@ -10,10 +10,10 @@
 use core::hint::black_box;
 use nalgebra::{Matrix3, Vector2, Vector3};
 use surefoot::balance::{
-    ContactLimits, ContactPatch, Controller, FootLimits, FootTask, Gains, Ground, LeggedRobot,
-    LimitMemory, LinearTask, MotionTask, ObservedFoot, ObservedMotion, Reference, RobotState, Sole,
-    Supervisor, WholeBody, WholeBodyController, WholeBodyFoot, WholeBodyMemory, WholeBodySettings,
-    WholeBodyState, WorkspaceForm, WrenchLimits, limited_tick, observe, tick,
+    AngularTask, ContactLimits, ContactPatch, Controller, FootLimits, FootTask, Gains, Ground,
+    LeggedRobot, LimitMemory, LinearTask, MotionTask, ObservedFoot, ObservedMotion, Reference,
+    RobotState, Sole, Supervisor, WholeBody, WholeBodyController, WholeBodyFoot, WholeBodyMemory,
+    WholeBodySettings, WholeBodyState, WorkspaceForm, WrenchLimits, limited_tick, observe, tick,
     whole_body_motion_tick, whole_body_tick,
 };
 use surefoot::disturbance::{
@@ -150,7 +150,11 @@ pub fn opaque_motion_tick() {
         let linear =
             LinearTask::CenterOfPressure { point: [0.0; 2], vertical: 0.0, per_length: 12.0 };
         let feet = [press, swing, press, swing];
-        let task = black_box(MotionTask { linear, angular: Vector3::zeros(), feet });
+        let task = black_box(MotionTask {
+            linear,
+            angular: AngularTask::CentralBody(Vector3::zeros()),
+            feet,
+        });
         let answer = whole_body_motion_tick(controller, &observed, &task, memory);
         let _ = black_box((motion, answer, memory));
     });
