@@ -156,7 +156,8 @@ impl SurefootCommand {
             ContactLimit::Slip => SurefootLimit::Slip,
             ContactLimit::Tip => SurefootLimit::Tip,
             ContactLimit::Twist => SurefootLimit::Twist,
-            ContactLimit::Torque(_) => SurefootLimit::Torque,
+            // Its controller knows no ranges.
+            ContactLimit::Torque(_) | ContactLimit::Range(_) => SurefootLimit::Torque,
         };
         self.limit_leg = u8::try_from(worst.foot).unwrap_or(NONE);
         if let ContactLimit::Torque(joint) = worst.limit {

@@ -71,6 +71,10 @@ impl<T: Real, const FEET: usize> From<&WholeBodyReport<T, FEET>> for TickLimits<
                 let joint = velocity.saturating_sub(6);
                 Reason { foot: joint / 6, limit: ContactLimit::Torque((joint % 6) as u8), relief }
             }
+            WholeBodyLimit::Range { velocity } => {
+                let joint = velocity.saturating_sub(6);
+                Reason { foot: joint / 6, limit: ContactLimit::Range((joint % 6) as u8), relief }
+            }
         });
         let is_unfinished = is_unfinished(report.status);
         Self { is_active: report.is_limited(), is_unfinished, worst }

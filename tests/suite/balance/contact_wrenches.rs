@@ -38,7 +38,7 @@ fn wrenches(answer: &Value) -> Vec<f64> {
 
 fn name(foot: usize, limit: ContactLimit) -> String {
     let limit = match limit {
-        ContactLimit::Torque(joint) => format!("torque{joint}"),
+        ContactLimit::Torque(joint) | ContactLimit::Range(joint) => format!("torque{joint}"),
         other => format!("{other:?}").to_lowercase(),
     };
     format!("foot {foot}: {limit}")

@@ -4,7 +4,7 @@ use super::{FEET, about_z, foot, nowhere, number, numbers, planner, vector};
 use nalgebra::Vector2;
 use serde_json::Value;
 use surefoot::Real;
-use surefoot::balance::{FootTask, LinearTask, ObservedMotion};
+use surefoot::balance::{AngularTask, FootTask, LinearTask, ObservedMotion};
 use surefoot::walk::{
     Phase, PlaneMotion, Side, StepQuery, WalkCommand, WalkMemory, next_step, periodic_step,
 };
@@ -89,7 +89,7 @@ fn walked(walk: &Value) -> [f64; 3] {
             let [x, y, turning_rate] = array(&tick["command"]);
             PlaneMotion { velocity: Vector2::new(x, y), turning_rate }
         });
-        let command = WalkCommand { walk: command, lowered: 0.0 };
+        let command = WalkCommand { walk: command, ..WalkCommand::stand() };
         let mut forces = [0.0; FEET];
         forces.iter_mut().zip(numbers(&tick["forces"])).for_each(|(to, x)| *to = x);
         let seen = observed(tick);
@@ -99,6 +99,7 @@ fn walked(walk: &Value) -> [f64; 3] {
             Phase::Standing => ("stand", 0.0, Vector2::zeros()),
             Phase::Single { step, .. } => ("ss", step.left, step.step),
             Phase::Double { .. } => ("ds", 0.0, Vector2::zeros()),
+            Phase::Jump(_) | Phase::Run(_) => panic!("no leap"),
         };
         assert_eq!(ours, mode, "at tick {at}");
         let [x, y] = array(&tick["step"]);
@@ -116,7 +117,8 @@ fn walked(walk: &Value) -> [f64; 3] {
         for (x, y) in linear.into_iter().zip(acc).skip(if is_after { 2 } else { 0 }) {
             see(1, x, y, "the whole", at);
         }
-        for (x, y) in task.motion.angular.iter().zip(array::<3>(&tick["ang"])) {
+        let AngularTask::CentralBody(angular) = task.motion.angular else { panic!("no leap") };
+        for (x, y) in angular.iter().zip(array::<3>(&tick["ang"])) {
             see(1, *x, y, "trunk", at);
         }
         let feet = tick["feet"].as_array().expect("feet").len();

@@ -70,7 +70,7 @@ pub use program::ContactProgram;
 pub use relief::Reason;
 pub(in crate::balance) use relief::{greatest, reliefs};
 pub use rows::ContactLimit;
-pub(in crate::balance) use rows::{first_row, split_row};
+pub(in crate::balance) use rows::{CONTACT_ROWS, first_row, split_row};
 
 use crate::Real;
 

@@ -101,7 +101,7 @@ fn place(limit: ContactLimit) -> usize {
         ContactLimit::Slip => 2,
         ContactLimit::Tip => 3,
         ContactLimit::Twist => 4,
-        ContactLimit::Torque(joint) => 5 + usize::from(joint),
+        ContactLimit::Torque(joint) | ContactLimit::Range(joint) => 5 + usize::from(joint),
     }
 }
 

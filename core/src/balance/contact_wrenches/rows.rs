@@ -14,7 +14,7 @@
 //! | 6 … 9 | tip | `hx fz ± My`, `hy fz ∓ Mx` |
 //! | 10 … 13 | twist + | `μ'(hx+hy) fz − Mz − s (hy fx + μ' Mx) − t (hx fy + μ' My)` |
 //! | 14 … 17 | twist − | `μ'(hx+hy) fz + Mz − s (hy fx − μ' Mx) − t (hx fy − μ' My)` |
-//! | 18 … | torque | `limit − τ_k`, then `limit + τ_k` |
+//! | 18 … | torque | `limit − τ_k`, then `limit + τ_k` (of a tick whose feet may swing: ranges of the leg's joints) |
 //!
 //! with `(s, t) = (+,+), (+,−), (−,+), (−,−)`. Rows 2 to 17 are exactly the wrenches of four forces at
 //! the patch's corners, each in its pyramid (Caron, Pham, Nakamura, ICRA 2015). An edge has only the
@@ -30,7 +30,7 @@ use crate::spatial::Wrench;
 use core::f64::consts::FRAC_1_SQRT_2;
 
 /// Contact rows, before those of torques.
-pub(super) const CONTACT_ROWS: u8 = 18;
+pub(in crate::balance) const CONTACT_ROWS: u8 = 18;
 /// Numbers of rows from one foot to the next: 18 and twice at most 7 joints.
 pub(super) const STRIDE: u8 = 32;
 
@@ -50,6 +50,8 @@ pub enum ContactLimit {
     Twist,
     /// Torque of a joint, counted from the hip.
     Torque(u8),
+    /// Range of a joint, numbered as its torque: how fast it may still turn towards the end.
+    Range(u8),
 }
 
 impl ContactLimit {
@@ -178,6 +180,7 @@ impl<T: Real, const JOINTS: usize> ContactLimits<T, JOINTS> {
             ContactLimit::Tip if row % STRIDE < 8 => patch.half_x * fz,
             ContactLimit::Tip => patch.half_y * fz,
             ContactLimit::Twist => cap * (patch.half_x + patch.half_y),
+            ContactLimit::Range(_) => T::zero(),
             ContactLimit::Torque(joint) => {
                 self.torques.get(usize::from(joint)).map_or(T::zero(), |limit| *limit)
             }

@@ -90,6 +90,8 @@ impl LimitSet {
             ContactLimit::Tip => 1 << 3,
             ContactLimit::Twist => 1 << 4,
             ContactLimit::Torque(joint) => 1_u16.checked_shl(5 + u32::from(joint)).unwrap_or(0),
+            // Reported by joint.
+            ContactLimit::Range(_) => 0,
         }
     }
 

@@ -153,6 +153,12 @@ impl<T: Real> Contact<T> {
         self.inverse.map(|row| row.iter().zip(a).fold(T::zero(), |sum, (x, a)| sum + *x * *a))
     }
 
+    /// What a joint's acceleration is per acceleration of the foot, sole axes: a row of `J⁺`.
+    #[inline(always)]
+    pub fn per_foot(&self, joint: usize) -> [T; DIRECTIONS] {
+        self.inverse.get(joint).copied().unwrap_or([T::zero(); DIRECTIONS])
+    }
+
     /// `J⁺ᵀ t`, in sole axes.
     #[inline(always)]
     pub fn gathered(&self, t: &[T; MOST_LEG_JOINTS]) -> [T; DIRECTIONS] {

@@ -1,6 +1,7 @@
 //! What a tick makes of its inputs before the dynamics: checks, the posture's accelerations, joint axes.
 
 use super::joint_line::{JointLine, joint_line};
+use super::motion::kept;
 use super::robot::WholeBody;
 use super::{WholeBodySettings, WholeBodyState};
 use crate::Real;
@@ -26,6 +27,15 @@ pub(super) fn posture<T: Real, const FEET: usize, const NQ: usize, const NV: usi
         let angle = joint.and_then(|joint| state.positions.get(joint.coordinate));
         if let Some(angle) = angle {
             *to = (*wanted - *angle) * stiffness - *rate * damping;
+        }
+    }
+    if let Some(ranges) = &settings.ranges {
+        let all = robot.joints.iter().zip(ranges).zip(&state.velocities);
+        for (to, ((joint, range), rate)) in accelerations.iter_mut().zip(all) {
+            let angle = joint.and_then(|joint| state.positions.get(joint.coordinate));
+            if let Some(angle) = angle {
+                *to = kept(*range, settings.range_rate, (*angle, *rate), *to);
+            }
         }
     }
     accelerations

@@ -8,13 +8,13 @@
 //! ```
 //! | row | limit |
 //! |---|---|
-//! | 0 … 127 | of feet, 32 numbers each |
+//! | 0 … 127 | of feet, 32 numbers each: 18 of the contact, and two for the range of each of the leg's joints |
 //! | 128 + 2k, 129 + 2k | `limit − τ_k`, `limit + τ_k` of the joint with velocity 6 + k |
 
 use super::reduced::Reduced;
 use super::robot::{BodyJoint, WHOLE_BODY_FEET, WholeBody};
 use crate::Real;
-use crate::balance::contact_wrenches::split_row;
+use crate::balance::contact_wrenches::{CONTACT_ROWS, split_row};
 use crate::balance::{ContactLimit, ContactProgram, Reason};
 use crate::qp::{ActiveRows, Program, ProgramCost, Search, Work};
 use crate::spatial::{Twist, Wrench};
@@ -37,6 +37,11 @@ pub enum WholeBodyLimit {
     },
     /// The torque (or force) of a joint.
     Torque {
+        /// Index of its velocity.
+        velocity: usize,
+    },
+    /// The range of a leg's joint: how fast it may still turn towards the end.
+    Range {
         /// Index of its velocity.
         velocity: usize,
     },
@@ -92,15 +97,27 @@ impl<T: Real, const FEET: usize, const NV: usize> WholeBodyProgram<'_, T, FEET, 
     }
 }
 
-/// Which limit a row is.
-pub(super) fn limit_of(row: u8) -> WholeBodyLimit {
+/// Which limit a row is; `joint` is the velocity of a leg's joint by foot and number, foot to hip.
+pub(super) fn limit_of(row: u8, joint: impl Fn(usize, usize) -> usize) -> WholeBodyLimit {
     match row.checked_sub(TORQUES) {
         Some(pair) => WholeBodyLimit::Torque { velocity: BASE + usize::from(pair / 2) },
         None => {
             let (foot, own) = split_row(row);
-            WholeBodyLimit::Foot { foot, limit: ContactLimit::of_row(own, 0) }
+            match range_row::<f32>(own) {
+                Some((number, _)) => WholeBodyLimit::Range { velocity: joint(foot, number) },
+                None => WholeBodyLimit::Foot { foot, limit: ContactLimit::of_row(own, 0) },
+            }
         }
     }
+}
+
+/// Number of a leg's joint (foot to hip) and sign of a foot's row that is of a range: an acceleration at most so much,
+/// or at least.
+#[inline(always)]
+pub(super) fn range_row<T: Real>(own: u8) -> Option<(usize, T)> {
+    let pair = own.checked_sub(CONTACT_ROWS)?;
+    let sign = if pair % 2 == 0 { -T::one() } else { T::one() };
+    Some((usize::from(pair / 2), sign))
 }
 
 /// The limit that costs most, with its relief: of the feet's and those of torques.
@@ -114,7 +131,7 @@ pub(super) fn worst<T: Real, const NV: usize, const K: usize>(
         (limit, reason.relief)
     });
     active.iter().fold(of_feet, |most, (row, multiplier)| {
-        let WholeBodyLimit::Torque { velocity } = limit_of(row) else { return most };
+        let Some((velocity, _)) = torque_row::<T>(row) else { return most };
         let limit = torques.get(velocity).copied().unwrap_or(T::zero());
         let relief = multiplier * limit;
         match most {

@@ -87,6 +87,8 @@ pub struct WholeBodyReport<T, const FEET: usize> {
     pub feet: [LimitSet; FEET],
     /// Bit k: the torque of the joint with velocity 6 + k binds.
     pub torques: u64,
+    /// The same of its range.
+    pub ranges: u64,
     /// The limit that costs most, and by how much the objective would fall per 100 % by which it is
     /// widened; `None` where nothing binds.
     pub worst: Option<(WholeBodyLimit, T)>,
@@ -112,6 +114,7 @@ impl<T: Real, const FEET: usize> WholeBodyReport<T, FEET> {
             status: Status::Solved,
             feet: [LimitSet::default(); FEET],
             torques: 0,
+            ranges: 0,
             worst: None,
             broken: None,
             given_up: Wrench::zero(),
@@ -133,15 +136,17 @@ impl<T: Real, const FEET: usize> WholeBodyReport<T, FEET> {
         solution: &Solution<T, X>,
         active: &ActiveRows<T, K>,
         worst: Option<(WholeBodyLimit, T)>,
+        joint: impl Fn(usize, usize) -> usize,
     ) {
         self.status = solution.status;
         self.worst = worst;
         self.changes = solution.changes;
         self.work = solution.work;
         for (row, _) in active.iter() {
-            self.insert(limit_of(row));
+            self.insert(limit_of(row, &joint));
         }
-        self.broken = solution.violation.map(|broken| (limit_of(broken.row), broken.amount));
+        self.broken =
+            solution.violation.map(|broken| (limit_of(broken.row, &joint), broken.amount));
     }
 
     fn insert(&mut self, limit: WholeBodyLimit) {
@@ -154,6 +159,10 @@ impl<T: Real, const FEET: usize> WholeBodyReport<T, FEET> {
             WholeBodyLimit::Torque { velocity } => {
                 let bit = velocity.checked_sub(6).and_then(|k| 1_u64.checked_shl(k as u32));
                 self.torques |= bit.unwrap_or(0);
+            }
+            WholeBodyLimit::Range { velocity } => {
+                let bit = velocity.checked_sub(6).and_then(|k| 1_u64.checked_shl(k as u32));
+                self.ranges |= bit.unwrap_or(0);
             }
         }
     }

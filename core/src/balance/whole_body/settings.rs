@@ -19,6 +19,10 @@ pub struct WholeBodySettings<T, const NV: usize> {
     pub posture_gains: [T; 2],
     /// Greatest torques (N·m) or forces (N) of the joints, in either sense; may be infinite.
     pub torques: [T; NV],
+    /// Least and greatest angles (rad, or m) of joints, where a tick whose feet may swing is to keep them.
+    pub ranges: Option<[[T; 2]; NV]>,
+    /// Rate at which an angle may approach the end of its range, 1/s.
+    pub range_rate: T,
     /// Rate at which feet that creep come to rest, 1/s.
     pub rest_rate: T,
     /// What is given up first where not all can be had.
@@ -69,6 +73,8 @@ impl<T: Real, const NV: usize> WholeBodySettings<T, NV> {
             posture: [T::zero(); NV],
             posture_gains: [stiffness, damping],
             torques: [T::of(f64::from(f32::MAX)); NV],
+            ranges: None,
+            range_rate: frequency * T::of(12.0),
             rest_rate: frequency * T::of(5.8),
             weights: ContactWeights {
                 task: [x, y, z, tilt * per_length, pitch * per_length, yaw * per_length],
@@ -115,8 +121,19 @@ impl<T: Real, const NV: usize> WholeBodySettings<T, NV> {
                 return Err(WholeBodyRobotFault::Setting { velocity });
             }
         }
+        let mut ranges = self.ranges.iter().flatten().enumerate();
+        // NaN compares as false.
+        if let Some((velocity, _)) = ranges.find(|(_, [least, greatest])| !(least <= greatest)) {
+            return Err(WholeBodyRobotFault::Setting { velocity });
+        }
         let weights = &self.weights;
-        let gains = [self.rest_rate, self.damping, weights.regularization, weights.norm_length];
+        let gains = [
+            self.rest_rate,
+            self.range_rate,
+            self.damping,
+            weights.regularization,
+            weights.norm_length,
+        ];
         let motion = &self.motion;
         // Those that are divided by.
         let positive = [motion.swing_linear, motion.swing_angular, motion.regularization];

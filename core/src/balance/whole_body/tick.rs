@@ -233,7 +233,9 @@ fn within<T: Real, const FEET: usize, const NV: usize>(
     let active = &mut memory.active;
     let solution = solve(program, active, settings).map_err(|_| Fault::Overflow)?;
     command.foot_wrenches = solution.x;
-    command.limits.fill(&solution, active, program.worst(&solution.x, active));
+    let worst = program.worst(&solution.x, active);
+    // It has no rows of ranges.
+    command.limits.fill(&solution, active, worst, |_, _| 0);
     Ok(())
 }
 

@@ -113,6 +113,7 @@ pub(super) fn named(limit: ContactLimit) -> (&'static str, Option<u8>) {
         ContactLimit::Tip => ("tip", None),
         ContactLimit::Twist => ("twist", None),
         ContactLimit::Torque(joint) => ("torque", Some(joint)),
+        ContactLimit::Range(joint) => ("range", Some(joint)),
     }
 }
 

@@ -12,7 +12,7 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 use surefoot::Real;
 use surefoot::balance::{
-    FootTask, LinearTask, MotionTask, ObservedMotion, WholeBody, WholeBodyCommand,
+    AngularTask, FootTask, LinearTask, MotionTask, ObservedMotion, WholeBody, WholeBodyCommand,
     WholeBodyController, WholeBodyMemory, WholeBodySettings, WholeBodyState, observe,
     whole_body_motion_tick,
 };
@@ -101,5 +101,13 @@ fn task<T: Real>(
         let vertical = T::of(share * rng.random_range(-1.0..1.0));
         LinearTask::CenterOfPressure { point: [mean.x, mean.y], vertical, per_length: T::of(12.0) }
     };
-    MotionTask { linear, angular: vector(rng, share), feet }
+    MotionTask { linear, angular: AngularTask::CentralBody(vector(rng, share)), feet }
+}
+
+/// The central body's angular acceleration that a task asks for.
+fn central(task: &MotionTask<f64, 4>) -> Vector3<f64> {
+    match task.angular {
+        AngularTask::CentralBody(acceleration) => acceleration,
+        AngularTask::Momentum { .. } => panic!("not of these tasks"),
+    }
 }

@@ -46,7 +46,9 @@
 mod dynamics;
 mod objective;
 mod program;
+mod range;
 mod tick;
 
 pub use objective::MotionWeights;
+pub(super) use range::kept;
 pub use tick::whole_body_motion_tick;

@@ -3,12 +3,13 @@
 
 use super::super::WholeBodyLimit;
 use super::super::leg_inverse::DIRECTIONS;
-use super::super::program::{TORQUES, torque_row, worst};
+use super::super::program::{TORQUES, range_row, torque_row, worst};
 use super::super::robot::WHOLE_BODY_FEET;
 use super::dynamics::{MotionDynamics, Unknowns};
 use super::objective::Objective;
+use super::range::Ranges;
 use crate::Real;
-use crate::balance::contact_wrenches::{first_row, greatest, reliefs, split_row};
+use crate::balance::contact_wrenches::{CONTACT_ROWS, first_row, greatest, reliefs, split_row};
 use crate::qp::{ActiveRows, Program, ProgramCost, Search, Work};
 use crate::spatial::{Twist, Wrench};
 
@@ -20,6 +21,8 @@ pub(super) struct MotionProgram<'a, T, const FEET: usize, const NV: usize> {
     pub torques: &'a [T; NV],
     /// `X` where all unknowns are zero.
     pub free: Twist<T>,
+    /// Of the legs' joints.
+    pub ranges: Option<&'a Ranges<T, FEET>>,
 }
 
 /// A row's normal, in sole axes.
@@ -47,7 +50,36 @@ impl<T: Real, const FEET: usize, const NV: usize> MotionProgram<'_, T, FEET, NV>
         for ((to, foot), [_, _, fz, ..]) in pressing.iter_mut().zip(self.dynamics.feet).zip(x) {
             *to = foot.as_ref().and_then(|foot| Some((foot.limits.as_ref()?, *fz)));
         }
-        worst(greatest(reliefs(&pressing, active)), self.torques, active)
+        let most = worst(greatest(reliefs(&pressing, active)), self.torques, active);
+        let Some(ranges) = self.ranges else { return most };
+        active.iter().fold(most, |most, (row, multiplier)| {
+            let (foot, own) = split_row(row);
+            let Some((joint, sign)) = range_row(own).filter(|_| row < TORQUES) else { return most };
+            let Some((_, bound)) = self.range(ranges, (foot, joint), sign) else { return most };
+            let relief = multiplier * bound.abs();
+            match most {
+                Some((_, greatest)) if greatest > relief => most,
+                _ => Some((WholeBodyLimit::Range { velocity: self.joint(foot, joint) }, relief)),
+            }
+        })
+    }
+
+    /// Velocity of a leg's joint, by number from the foot.
+    pub fn joint(&self, foot: usize, number: usize) -> usize {
+        let leg = self.dynamics.robot.legs.get(foot).and_then(Option::as_ref);
+        leg.and_then(|leg| leg.joints.get(number)).copied().unwrap_or(0)
+    }
+
+    #[inline(never)]
+    fn range(
+        &self,
+        ranges: &Ranges<T, FEET>,
+        at: (usize, usize),
+        sign: T,
+    ) -> Option<([Unknowns<T>; FEET], T)> {
+        let nothing = [[T::zero(); DIRECTIONS]; FEET];
+        let free = self.dynamics.legs(&self.dynamics.moved(&nothing));
+        ranges.row(self.dynamics, at, sign, &free)
     }
 }
 
@@ -112,6 +144,10 @@ impl<T: Real, const FEET: usize, const NV: usize> Program<T> for MotionProgram<'
             return Some((Normal::OnAll(normal), -limit - free * sign));
         }
         let (foot, own) = split_row(row);
+        if let Some((joint, sign)) = range_row(own) {
+            let (normal, bound) = self.range(self.ranges?, (foot, joint), sign)?;
+            return Some((Normal::OnAll(normal), bound));
+        }
         let limits = self.dynamics.feet.get(foot)?.as_ref()?.limits.as_ref()?;
         let (normal, bound) = limits.contact_row(own)?;
         Some((Normal::OnFoot(foot, normal.to_array()), bound))
@@ -155,12 +191,20 @@ impl<T: Real, const FEET: usize, const NV: usize> Program<T> for MotionProgram<'
                 limits.scan_contact(&Wrench::from_array(*x), first_row(number), search);
             }
         }
-        let torques = self.dynamics.torques(&self.dynamics.moved(x));
+        let moved = self.dynamics.moved(x);
+        let torques = self.dynamics.torques(&moved);
         let joints = self.dynamics.robot.joints.iter().zip(self.torques).zip(&torques);
         for (((joint, limit), torque), row) in joints.skip(6).zip((TORQUES..=u8::MAX).step_by(2)) {
             if joint.is_some() {
                 search.offer_pair(*limit, *torque, [row, row.wrapping_add(1)]);
             }
+        }
+        if let Some(ranges) = self.ranges {
+            ranges.slacks(self.dynamics, &moved, |foot, joint, slacks| {
+                let first = first_row(foot) + CONTACT_ROWS + 2 * joint as u8;
+                search.offer(first, slacks[0]);
+                search.offer(first + 1, slacks[1]);
+            });
         }
     }
 }

@@ -12,6 +12,7 @@ use super::super::{
 use super::dynamics::{MotionDynamics, MotionFoot, Unknowns};
 use super::objective::{Objective, Surroundings};
 use super::program::MotionProgram;
+use super::range::ranges;
 use crate::Real;
 use crate::balance::{ContactLimits, Fault, Input};
 use crate::dynamics::inverse_dynamics;
@@ -54,6 +55,7 @@ pub fn whole_body_motion_tick<
     let mut accelerations = observed.accelerations;
     let mut feet = [None; FEET];
     set_feet(controller, observed, task, &mut accelerations, &mut feet)?;
+    let ranges = ranges(robot, settings, state, &accelerations);
     let bias = inverse_dynamics(tree, poses, &state.velocities, &accelerations, None);
     if !bias.iter().all(|x| x.is_finite()) {
         return Err(Fault::Overflow);
@@ -73,6 +75,7 @@ pub fn whole_body_motion_tick<
         objective: &objective,
         torques: &settings.torques,
         free,
+        ranges: ranges.as_ref(),
     };
     let mut limits = WholeBodyReport::free();
     let x = &within(&program, &settings.limits, memory, &mut limits)?;
@@ -181,7 +184,8 @@ fn within<T: Real, const FEET: usize, const NV: usize>(
 ) -> Result<[Unknowns<T>; FEET], Fault> {
     let active = &mut memory.active;
     let solution = solve(program, active, settings).map_err(|_| Fault::Overflow)?;
-    report.fill(&solution, active, program.worst(&solution.x, active));
+    let worst = program.worst(&solution.x, active);
+    report.fill(&solution, active, worst, |foot, joint| program.joint(foot, joint));
     Ok(solution.x)
 }
 

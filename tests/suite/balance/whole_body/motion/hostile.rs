@@ -7,7 +7,7 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 use surefoot::Real;
 use surefoot::balance::{
-    Fault, FootTask, Input, LinearTask, MotionTask, WholeBody, WholeBodyController,
+    AngularTask, Fault, FootTask, Input, LinearTask, MotionTask, WholeBody, WholeBodyController,
     WholeBodyMemory, WholeBodySettings, WholeBodyState, observe, whole_body_motion_tick,
 };
 use surefoot_tests::legged_trees::{quadruped, seven};
@@ -36,7 +36,7 @@ fn spoil_task<T: Real>(rng: &mut Pcg64, task: &mut MotionTask<T, 4>) {
             let linear = Vector3::from_fn(|_, _| wild(rng));
             task.feet[at] = FootTask::Swing { linear, angular: Vector3::zeros() };
         }
-        2 => task.angular.y = wild(rng),
+        2 => task.angular = AngularTask::CentralBody(Vector3::y() * wild(rng)),
         3 => {
             let [x, y, vertical, per_length] = std::array::from_fn(|_| wild(rng));
             task.linear = LinearTask::CenterOfPressure { point: [x, y], vertical, per_length };
@@ -122,7 +122,12 @@ fn what_is_wrong_with_a_task_is_named() {
     };
     assert_eq!(tick(&|_| {}), Ok(()));
     let fault = Err(Fault::NotFinite(Input::Reference));
-    assert_eq!(tick(&|task| task.angular.x = f64::NAN), fault);
+    let turns = |rate: f64| AngularTask::CentralBody(Vector3::x() * rate);
+    assert_eq!(tick(&|task| task.angular = turns(f64::NAN)), fault);
+    for (rate, inertia) in [(f64::NAN, 1.0), (1.0, 0.0), (1.0, -1.0), (1.0, f64::NAN)] {
+        let momentum = AngularTask::Momentum { rate: Vector3::x() * rate, inertia };
+        assert_eq!(tick(&|task| task.angular = momentum), fault);
+    }
     assert_eq!(
         tick(&|task| task.linear = LinearTask::CenterOfMass([0.0, f64::INFINITY, 0.0].into())),
         fault

@@ -4,9 +4,9 @@ use nalgebra::Vector3;
 use serde_json::Value;
 use surefoot::Real;
 use surefoot::balance::{
-    ContactLimits, ContactPatch, FootTask, LinearTask, MotionTask, MotionWeights, WholeBody,
-    WholeBodyController, WholeBodyFoot, WholeBodyMemory, WholeBodySettings, WholeBodyState,
-    observe, whole_body_motion_tick,
+    AngularTask, ContactLimits, ContactPatch, FootTask, LinearTask, MotionTask, MotionWeights,
+    WholeBody, WholeBodyController, WholeBodyFoot, WholeBodyMemory, WholeBodySettings,
+    WholeBodyState, observe, whole_body_motion_tick,
 };
 use surefoot::model::Tree;
 use surefoot::model::robots::biped;
@@ -126,7 +126,11 @@ fn compare<T: Real>(tree: &Tree<T, 13, 19, 18>, softness: f64) -> Found {
                 per_length: T::of(11.9),
             },
         };
-        let task = MotionTask { linear, angular: vector(&case["angular"]), feet };
+        let task = MotionTask {
+            linear,
+            angular: AngularTask::CentralBody(vector(&case["angular"])),
+            feet,
+        };
         let mut memory = WholeBodyMemory::new();
         let out =
             whole_body_motion_tick(&controller, &observed, &task, &mut memory).expect("torques");
