@@ -8,7 +8,7 @@ use surefoot::balance::{
     observe, whole_body_motion_tick,
 };
 use surefoot::spatial::Quaternion;
-use surefoot::walk::{Planner, WalkCommand, WalkMemory};
+use surefoot::walk::{Planner, RANGE_MARGIN, WalkCommand, WalkMemory};
 use surefoot_link::{
     Acknowledged, Settings, StanceSettings, TickLimits, WalkOrder, WalkerSettings,
 };
@@ -78,7 +78,8 @@ impl Balance {
             let stature = &walker.planner.stature;
             let (height, gravity) = (stature.height, stature.robot.gravity);
             let feet = stature.feet.iter().flatten().count();
-            stance.settings = stance.settings.for_walks(height, gravity, feet);
+            let settings = stance.settings.for_walks(height, gravity, feet);
+            stance.settings = settings.within(&crate::robot::LIMITS, RANGE_MARGIN);
         }
         self.command = WalkCommand::stand();
         self.memory = WholeBodyMemory::new();

@@ -91,3 +91,7 @@ pub use swing::SwingFoot;
 /// Rates that are believed of the joints of a robot that walks, over what its motors reach: a sole that lands
 /// on an edge turns its ankle faster for a tick (G1's at 39 rad/s, its motor 30; Go1's calf 20.5 and 20.06).
 pub const LANDING_RATE: f32 = 2.0;
+
+/// A robot that walks keeps its joints by this within the ranges that its encoders read, rad (m): what a landing moves an
+/// ankle in a tick.
+pub const RANGE_MARGIN: f32 = 0.02;

@@ -48,3 +48,42 @@ fn a_walk_on_ice_ends_with_the_supervisor() {
     println!("{:.2} s: {}", stop.time_s, stop.reason);
     assert_eq!(run.gait.expect("a walk").falls, 1);
 }
+
+#[test]
+fn the_biped_runs_with_flight_and_stands_again() {
+    let run = play(&load("run").expect("built in"), Scalar::F32);
+    assert_eq!(run.failure, None);
+    let gait = run.gait.expect("a run");
+    let flight = gait.flight.expect("flights");
+    println!("{gait:?}; {:.3} m/s", speed(&run, 4.5, 7.9));
+    assert!(gait.falls == 0 && (speed(&run, 4.5, 7.9) - 1.2).abs() < 0.06);
+    assert!(flight.count >= 15 && flight.share > 0.1);
+    assert!(speed(&run, 9.5, 10.0).abs() < 0.03);
+}
+
+#[test]
+fn the_biped_jumps_a_quarter_of_a_meter_and_hops_five_times() {
+    let run = play(&load("jump").expect("built in"), Scalar::F32);
+    assert_eq!(run.failure, None);
+    let gait = run.gait.expect("jumps");
+    let flight = gait.flight.expect("flights");
+    println!("{gait:?}");
+    assert!(gait.falls == 0 && flight.count == 6);
+    assert!(flight.apex_m > 0.25 && flight.apex_m < 0.27);
+    // The hops are asked to be 0.2 m high.
+    assert!((flight.least_apex_m - 0.2).abs() < 0.02);
+    // It stands as it began.
+    let [first, last] = [&run.samples[0], run.samples.last().expect("samples")];
+    assert!((first.positions[2] - last.positions[2]).abs() < 0.01);
+}
+
+#[test]
+fn the_biped_carries_what_it_does_not_know_of() {
+    let run = play(&load("carry").expect("built in"), Scalar::F32);
+    assert_eq!(run.failure, None);
+    let gait = run.gait.expect("a walk");
+    println!("{gait:?}");
+    assert!(gait.falls == 0 && (gait.speed_m_s - 0.5).abs() < 0.05);
+    // Legs do not pass through each other.
+    assert!(gait.legs_apart_m.expect("two legs") > 0.05);
+}

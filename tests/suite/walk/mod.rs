@@ -2,6 +2,7 @@
 //! definition, and what it refuses.
 
 mod hostile;
+mod leap;
 mod periodic;
 mod vectors;
 

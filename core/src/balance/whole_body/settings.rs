@@ -2,7 +2,7 @@
 
 use super::{MotionWeights, WholeBodyRobotFault};
 use crate::Real;
-use crate::balance::{ContactWeights, Gains};
+use crate::balance::{ContactWeights, Gains, SafetyLimits};
 use crate::qp::{Settings, Work};
 use crate::spatial::SymmetricMatrix3;
 
@@ -46,11 +46,14 @@ impl<T: Real, const NV: usize> WholeBodySettings<T, NV> {
     }
 
     /// The same for ticks whose feet may swing: what fourteen limits taken in and let go cost on a robot that fills
-    /// its feet, and eight on two feet of four: a tick that needs more goes on from there in the next.
+    /// its feet, and eight on two feet of four: a tick that needs more goes on from there in the next. Twice as much
+    /// for more than twelve joints: G1 with half of it tips its feet in double support.
     pub const fn most_motion_work(feet: usize) -> Work {
         let joints = NV.saturating_sub(6);
         let change = 240 + 430 * feet + 12 * joints;
-        14 * change as Work
+        // Torques of waist and arms are limits too.
+        let changes = if joints > 12 { 28 } else { 14 };
+        changes * change as Work
     }
 
     /// Documented starting values for a robot whose central body stands at the height `z` (m) above its
@@ -108,6 +111,24 @@ impl<T: Real, const NV: usize> WholeBodySettings<T, NV> {
         let Self { motion, limits, posture_gains, rest_rate, .. } =
             Self::walking(height, gravity, feet);
         Self { motion, limits, posture_gains, rest_rate, ..self }
+    }
+
+    /// These settings with the ranges of a supervisor's limits, by `margin` (rad, m) narrower; none where no joint's
+    /// ends before half a turn.
+    pub fn within<const ROWS: usize>(self, limits: &SafetyLimits<T, ROWS>, margin: T) -> Self {
+        let joints = limits.joints.as_flattened();
+        let is_free = |[least, greatest]: [T; 2]| least <= -T::pi() && greatest >= T::pi();
+        if joints.iter().all(|joint| is_free(joint.angle)) {
+            return self;
+        }
+        let far = T::of(f64::from(f32::MAX) * 1e-6);
+        let mut ranges = [[-far, far]; NV];
+        for (to, joint) in ranges.iter_mut().skip(6).zip(joints) {
+            let [least, greatest] = joint.angle;
+            let margin = margin.min((greatest - least) * T::of(0.25));
+            *to = [least + margin, greatest - margin];
+        }
+        Self { ranges: Some(ranges), ..self }
     }
 
     /// Whether every number can be.

@@ -20,8 +20,8 @@ use surefoot::balance::{
 use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, Wrench};
 use surefoot::walk::{
-    self, JumpOrder, LANDING_RATE, Leeway, Phase, PlaneMotion, Planner, StandingRobot, Stature,
-    WalkMemory,
+    self, JumpOrder, LANDING_RATE, Leeway, Phase, PlaneMotion, Planner, RANGE_MARGIN,
+    StandingRobot, Stature, WalkMemory,
 };
 
 /// What a target must know of a robot that walks.
@@ -36,7 +36,7 @@ pub(super) struct WalkStart {
 /// Of a scene's robot.
 pub(super) fn start(scene: &Scene) -> WalkStart {
     with_tree!(&scene.robot().tree, tree => {
-        let walker = Walker::new(tree.to_f32(), scene, 1.0_f32);
+        let walker = Walker::new::<1>(tree.to_f32(), scene, 1.0_f32, None);
         let (stature, heading) = (walker.planner.stature, walker.memory.heading);
         WalkStart { stature, heading, height: walker.height }
     })
@@ -118,18 +118,24 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
         scene: &Scene,
     ) -> Self {
         let period = T::of(1.0 / scene.controller.rate_hz);
+        let walker = Walker::new(tree, scene, period, limits.as_ref());
         let supervisor = limits.map(|limits| {
             let mut supervisor = Supervisor::new(of_state(limits, scene), period)
                 .expect("limits of the robot, period of a checked scene");
             supervisor.arm();
             supervisor
         });
-        Self { walker: Walker::new(tree, scene, period), supervisor }
+        Self { walker, supervisor }
     }
 }
 
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ, NV> {
-    fn new(tree: Tree<T, N, NQ, NV>, scene: &Scene, period: T) -> Self {
+    fn new<const ROWS: usize>(
+        tree: Tree<T, N, NQ, NV>,
+        scene: &Scene,
+        period: T,
+        limits: Option<&SafetyLimits<T, ROWS>>,
+    ) -> Self {
         let mut body = WholeBodyHost::new(tree, scene);
         let start = scene.start();
         let shape = WalkerShape::of(&body.robot).expect("a robot of a checked scene");
@@ -149,6 +155,9 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
         let stature = Stature::measured(&robot, &shape.sides, &standing).expect("a robot on feet");
         // Starting values belong to the height of the centre of mass here.
         body.settings = body.settings.for_walks(stature.height, robot.gravity, feet);
+        if let Some(limits) = limits {
+            body.settings = body.settings.within(limits, T::of(RANGE_MARGIN.into()));
+        }
         let rotation = standing.central_rotation;
         let ground = lower_foot(&stature, &standing);
         Self {

@@ -105,7 +105,7 @@ fn task<T: Real>(
 }
 
 /// The central body's angular acceleration that a task asks for.
-fn central(task: &MotionTask<f64, 4>) -> Vector3<f64> {
+fn asked_turn(task: &MotionTask<f64, 4>) -> Vector3<f64> {
     match task.angular {
         AngularTask::CentralBody(acceleration) => acceleration,
         AngularTask::Momentum { .. } => panic!("not of these tasks"),

@@ -1,7 +1,7 @@
 //! What a command says of itself is what the equations of motion make of it, and it is the optimum of what
 //! is minimised.
 
-use super::{Play, central};
+use super::{Play, asked_turn};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use surefoot::balance::{ContactPatch, FootTask, LinearTask, WholeBodyCommand, WholeBodySettings};
 use surefoot::dynamics::{
@@ -203,7 +203,7 @@ fn slopes<const N: usize, const NQ: usize, const NV: usize>(
         LinearTask::Free => Vector3::zeros(),
     };
     let linear_error = of_task(&made) - goal;
-    let angular_error = turn(&all) - central(&at.task);
+    let angular_error = turn(&all) - asked_turn(&at.task);
     let bodies = kinematics(&command.accelerations);
     let square = mass * mass;
     for ((number, rows, jacobian), first) in jacobians.iter().zip(first_rows) {

@@ -36,7 +36,10 @@ fn spoil_task<T: Real>(rng: &mut Pcg64, task: &mut MotionTask<T, 4>) {
             let linear = Vector3::from_fn(|_, _| wild(rng));
             task.feet[at] = FootTask::Swing { linear, angular: Vector3::zeros() };
         }
-        2 => task.angular = AngularTask::CentralBody(Vector3::y() * wild(rng)),
+        2 => {
+            let turn = Vector3::new(T::zero(), wild(rng), T::zero());
+            task.angular = AngularTask::CentralBody(turn);
+        }
         3 => {
             let [x, y, vertical, per_length] = std::array::from_fn(|_| wild(rng));
             task.linear = LinearTask::CenterOfPressure { point: [x, y], vertical, per_length };
