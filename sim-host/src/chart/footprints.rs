@@ -35,8 +35,9 @@ struct Walk {
 
 /// The picture as SVG; `None` of a run of whose ground and capture point nothing is recorded.
 pub fn footprints(of: &str, robot: &Robot, samples: &[Sample]) -> Option<String> {
-    let noted =
-        |sample: &Sample| sample.note.as_ref().and_then(|note| note.capture_point).map(Vector2::from);
+    let noted = |sample: &Sample| {
+        sample.note.as_ref().and_then(|note| note.capture_point).map(Vector2::from)
+    };
     samples.iter().find_map(noted)?;
     let (first, last) = (samples.first()?, samples.last()?);
     let at = |sample: &Sample| Vector2::new(sample.positions[0], sample.positions[1]);
@@ -62,7 +63,9 @@ fn prints(robot: &Robot, samples: &[Sample], turn: &Rotation2<f64>) -> Vec<Footp
             if !stands(begin) || end.time_s - begin.time_s < LEAST_S {
                 continue;
             }
-            let Ok(poses) = robot.tree.body_poses(&time[time.len() / 2].positions) else { continue };
+            let Ok(poses) = robot.tree.body_poses(&time[time.len() / 2].positions) else {
+                continue;
+            };
             let Some(pose) = poses.get(own.body) else { continue };
             let points = own.points.iter().map(|p| turn * pose.transform_point(p.at).xy());
             prints.push(Footprint { foot, outline: around(points.collect()) });
@@ -106,9 +109,8 @@ fn drawn(of: &str, robot: &Robot, walk: &Walk, height: f64) -> String {
         let from = least.x + length * strip as f64;
         let top = HEAD + strip as f64 * (tall + MARGIN);
         // The world's second axis is up in the picture.
-        let place = |p: &Vector2<f64>| {
-            (MARGIN + scale * (p.x - from), top + scale * (most.y - p.y))
-        };
+        let place =
+            |p: &Vector2<f64>| (MARGIN + scale * (p.x - from), top + scale * (most.y - p.y));
         let wide = scale * length;
         let _ = writeln!(
             svg,

@@ -224,7 +224,8 @@ fn ground_forces(robot: &Robot, samples: &[Sample]) -> Vec<Panel> {
 /// How near motors come to their limits, which limit of the ground binds, and what the program took.
 fn limits(robot: &Robot, samples: &[Sample]) -> Vec<Panel> {
     let share = |sample: &Sample, joints: &[usize]| {
-        let shares = joints.iter().map(|i| sample.torques[*i].abs() / robot.limits.joints[*i].torque);
+        let shares =
+            joints.iter().map(|i| sample.torques[*i].abs() / robot.limits.joints[*i].torque);
         100.0 * shares.fold(0.0, f64::max)
     };
     let of_leg = |(leg, name): (usize, &String)| {

@@ -4,6 +4,7 @@ mod acting;
 mod approximate;
 mod askew;
 mod at_rest;
+mod carrying;
 mod cause;
 mod controller;
 mod disturbance;

@@ -1,7 +1,7 @@
 //! What a run of a robot has recorded.
 
-use super::{Sample, note};
 use super::recorded::{Details, JointReading, Record};
+use super::{Sample, note};
 use crate::picture::{Moment, Shown, Tracking};
 use crate::robot::{Robot, SharedRobot};
 use crate::scene::Scene;

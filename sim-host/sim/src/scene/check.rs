@@ -128,7 +128,8 @@ fn numbers(scene: &Scene) -> Result<(), SceneError> {
         && controller.friction_nm.is_none()
         && scene.robot().passive.iter().all(|joint| joint.friction == 0.0)
     {
-        let expected = "none, as neither the robot's file nor `friction_nm` states friction of its joints";
+        let expected =
+            "none, as neither the robot's file nor `friction_nm` states friction of its joints";
         return Err(wrong(scene, "controller.friction_share", controller.friction_share, expected));
     }
     if controller.distribution == Distribution::Limited && matches!(scene.feet, Feet::Welded {}) {

@@ -49,4 +49,4 @@ mod program;
 mod tick;
 
 pub use objective::MotionWeights;
-pub use tick::whole_body_motion_tick;
+pub use tick::{whole_body_motion_tick, whole_body_motion_tick_under};
