@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// Built-in scenes that have no joint, and those whose bodies touch a floor.
 const WITHOUT_JOINTS: [&str; 2] = ["rigid-body", "box-drop"];
-const ON_A_FLOOR: [&str; 9] = [
+const ON_A_FLOOR: [&str; 10] = [
     "experiment-1",
     "experiment-1-pushes",
     "experiment-2",
@@ -16,6 +16,7 @@ const ON_A_FLOOR: [&str; 9] = [
     "stand-loaded",
     "walk",
     "walk-pushed",
+    "walk-estimated",
     "turn",
     "box-drop",
 ];

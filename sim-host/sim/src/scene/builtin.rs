@@ -12,7 +12,7 @@ pub struct BuiltIn {
 }
 
 /// All built-in scenes.
-pub const BUILT_IN: [BuiltIn; 18] = [
+pub const BUILT_IN: [BuiltIn; 19] = [
     BuiltIn { name: "experiment-1", text: include_str!("../../scenes/experiment-1.toml") },
     BuiltIn {
         name: "experiment-1-pushes",
@@ -30,6 +30,7 @@ pub const BUILT_IN: [BuiltIn; 18] = [
     BuiltIn { name: "stand", text: include_str!("../../scenes/stand.toml") },
     BuiltIn { name: "walk", text: include_str!("../../scenes/walk.toml") },
     BuiltIn { name: "walk-pushed", text: include_str!("../../scenes/walk-pushed.toml") },
+    BuiltIn { name: "walk-estimated", text: include_str!("../../scenes/walk-estimated.toml") },
     BuiltIn { name: "turn", text: include_str!("../../scenes/turn.toml") },
     BuiltIn { name: "stand-loaded", text: include_str!("../../scenes/stand-loaded.toml") },
     BuiltIn { name: "box-drop", text: include_str!("../../scenes/box-drop.toml") },
