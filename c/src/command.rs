@@ -48,6 +48,8 @@ pub enum SurefootStop {
     FreeFall = 11,
     /// A motor was at its limit for too long.
     Saturated = 12,
+    /// The state's estimate is not to be believed.
+    Estimate = 13,
 }
 
 /// A limit of ground or motors.
@@ -136,6 +138,7 @@ impl SurefootCommand {
             StopReason::Height => SurefootStop::Height,
             StopReason::FreeFall => SurefootStop::FreeFall,
             StopReason::Saturated { .. } => SurefootStop::Saturated,
+            StopReason::Estimate(_) => SurefootStop::Estimate,
         };
         if let StopReason::Encoder { leg, joint }
         | StopReason::Frozen { leg, joint }

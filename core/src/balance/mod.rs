@@ -65,7 +65,7 @@ pub use whole_body::{
     ObservedBody, ObservedFoot, ObservedMotion, WHOLE_BODY_FEET, WholeBody, WholeBodyCommand,
     WholeBodyController, WholeBodyFoot, WholeBodyLimit, WholeBodyMemory, WholeBodyReport,
     WholeBodyRobotFault, WholeBodySettings, WholeBodyState, observe, whole_body_motion_tick,
-    whole_body_tick, whole_body_tick_under,
+    whole_body_motion_tick_under, whole_body_tick, whole_body_tick_under,
 };
 pub(crate) use whole_body::{JointLine, Leg, edge_axes, joint_line};
 pub use workspace_dynamics::{WorkspaceDynamics, big_base, fixed_foot_dynamics, fixed_foot_wrench};

@@ -74,6 +74,7 @@ mod state;
 mod step;
 mod touch_down;
 mod update;
+mod watch;
 
 /// By how much more than a measured one an estimated velocity may step for a supervisor: position moves by 0.7 mm a
 /// tick as feet rock on ground that yields, which is a step of 0.7 m/s. What the filter finds itself of readings that
@@ -90,3 +91,4 @@ pub use readings::{FootReading, ImuReading, Readings};
 pub use settings::{Bounds, Estimator, Floor, FootKind, SensorNoise, Turn};
 pub use start::StartPose;
 pub use state::{EstimatorState, FootState};
+pub use watch::EstimateWatch;

@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// Built-in scenes that have no joint, and those whose bodies touch a floor.
 const WITHOUT_JOINTS: [&str; 2] = ["rigid-body", "box-drop"];
-const ON_A_FLOOR: [&str; 12] = [
+const ON_A_FLOOR: [&str; 13] = [
     "experiment-1",
     "experiment-1-pushes",
     "experiment-2",
@@ -19,6 +19,7 @@ const ON_A_FLOOR: [&str; 12] = [
     "run",
     "jump",
     "carry",
+    "walk-estimated",
     "turn",
     "box-drop",
 ];

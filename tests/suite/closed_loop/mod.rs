@@ -20,4 +20,5 @@ mod stand;
 mod stops;
 mod supervised;
 mod walks;
+mod walks_by_sensors;
 mod welded;

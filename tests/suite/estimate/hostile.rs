@@ -3,7 +3,8 @@
 use super::motion::{GRAVITY, PERIOD, readings, soles, started, truth};
 use nalgebra::Vector3;
 use surefoot::estimate::{
-    Concern, EstimateFault, EstimateInput, Estimator, EstimatorState, Floor, Readings, StartPose,
+    Concern, EstimateFault, EstimateInput, EstimateWatch, Estimator, EstimatorState, Floor, Health,
+    OutOfBounds, Readings, StartPose,
 };
 use surefoot::spatial::Quaternion;
 
@@ -102,38 +103,67 @@ fn the_start_is_where_it_is_said_to_be() {
 }
 
 /// A robot that stands still, its accelerometer turned so much about x against gravity, then told the truth.
-fn wrong_start(degrees: f64) -> (f64, Option<Concern>) {
+fn wrong_start(degrees: f64) -> (f64, Option<Concern>, Option<Concern>) {
     let settings = soles::<f64>();
     let wrong = Quaternion::from_axis_angle(Vector3::x(), degrees.to_radians());
     let mut first = readings(0);
     first.imu.accelerometer = wrong.rotate(Vector3::new(0.0, 0.0, GRAVITY));
     let mut state =
         EstimatorState::start(&settings, &first, &StartPose::origin()).expect("at rest");
-    let mut concern = None;
+    let (mut concern, mut stop, mut watch) = (None, None, EstimateWatch::new());
     for tick in 0..3000 {
         let now = readings(tick);
         let report = settings.step(&mut state, &now).expect("good readings");
         let q = report.estimate.orientation;
         assert!(q.norm_squared().is_finite());
+        stop = stop.or(watch.after(&report.health, PERIOD));
         if let Some(worst) = report.health.worst {
             concern.get_or_insert(worst.concern);
         }
     }
     let q = state.orientation.product(truth(2999.0 * PERIOD).orientation.conjugate());
     let tilt = q.rotate(Vector3::z()).z.acos().to_degrees();
-    (tilt, concern)
+    (tilt, concern, stop)
 }
 
 /// 10° are never recovered, and said; 1° is neither.
 #[test]
 fn a_wrong_start_is_found_by_the_bias_that_it_takes() {
-    let (tilt, concern) = wrong_start(1.0);
-    assert!(tilt < 1.0 && concern.is_none(), "{tilt}° {concern:?}");
+    let (tilt, concern, stop) = wrong_start(1.0);
+    assert!(tilt < 1.0 && concern.is_none() && stop.is_none(), "{tilt}° {concern:?}");
     for degrees in [10.0, 20.0, 45.0] {
-        let (tilt, concern) = wrong_start(degrees);
+        let (tilt, concern, stop) = wrong_start(degrees);
         println!("{degrees}: {tilt} {concern:?}");
         assert!(tilt > 1.0, "{tilt}°");
         assert_eq!(concern, Some(Concern::AccelerometerBias));
+        println!("stopped for {stop:?}");
+        assert!(stop.is_some(), "{degrees}°");
+    }
+}
+
+/// One tick in doubt is forgotten; more than 0.1 s of it are not, nor every second tick, nor a bound that is a time.
+#[test]
+fn doubts_that_stay_stop_the_robot() {
+    let health = |concern: Option<Concern>| Health {
+        worst: concern.map(|concern| OutOfBounds { concern, size: 2.0, limit: 1.0 }),
+        count: u8::from(concern.is_some()),
+    };
+    let slip = Some(Concern::FootPosition(1));
+    let after = |pattern: &[Option<Concern>]| {
+        let mut watch = EstimateWatch::new();
+        let ticks = pattern.iter().cycle().take(1000);
+        ticks.enumerate().find_map(|(n, concern)| Some((n, watch.after(&health(*concern), PERIOD)?)))
+    };
+    assert_eq!(after(&[None]), None);
+    // Half as fast forgotten as learnt.
+    assert_eq!(after(&[slip, None, None]), None);
+    // 0.1 s are 50 ticks, of doubles that are a little more or less.
+    let (ticks, concern) = after(&[slip]).expect("a stop");
+    assert!((49..=51).contains(&ticks) && Some(concern) == slip, "{ticks}");
+    let (ticks, _) = after(&[slip, None]).expect("a stop");
+    assert!((190..=200).contains(&ticks), "{ticks}");
+    for concern in [Concern::Switch(0), Concern::Airborne, Concern::Covariance] {
+        assert_eq!(after(&[Some(concern)]), Some((0, concern)));
     }
 }
 

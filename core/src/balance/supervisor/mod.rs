@@ -152,6 +152,15 @@ impl<T: Real, const LEGS: usize> Supervisor<T, LEGS> {
         }
     }
 
+    /// Stops the robot for a reason that is known elsewhere, such as
+    /// [`StopReason::Estimate`]: the next step brakes. Only while it balances.
+    pub fn stop(&mut self, reason: StopReason) {
+        if self.memory.mode == Mode::Active {
+            self.memory.reason = Some(reason);
+            self.memory.mode = Mode::Stopping { left: self.stop_ticks };
+        }
+    }
+
     /// Back to standby: torques are zero from the next step on.
     pub fn disarm(&mut self) {
         self.memory = SupervisorMemory::new(self.memory.cut);

@@ -1,6 +1,7 @@
 //! Why a robot was stopped.
 
 use crate::balance::{Fault, Input};
+use crate::estimate::Concern;
 
 /// Why the supervisor stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +52,8 @@ pub enum StopReason {
         /// Number of the joint, from 0 at the hip.
         joint: usize,
     },
+    /// The state estimator does not believe itself: what is out of bounds, and stays so.
+    Estimate(Concern),
 }
 
 impl StopReason {
@@ -87,6 +90,9 @@ impl core::fmt::Display for StopReason {
             Self::FreeFall => f.write_str("the central body falls freely"),
             Self::Saturated { leg, joint } => {
                 write!(f, "the motor of leg {leg}'s joint {joint} is at its limit for too long")
+            }
+            Self::Estimate(concern) => {
+                write!(f, "the state's estimate is not to be believed: out of bounds is {concern}")
             }
         }
     }

@@ -87,6 +87,11 @@ pub trait Controller {
         None
     }
 
+    /// Has its supervisor, if it has one on this side, stop the robot.
+    fn stop(&mut self, reason: StopReason) {
+        let _ = reason;
+    }
+
     /// What its supervisor remembers of earlier ticks, if it has one on this side.
     fn memory(&self) -> Option<SupervisorMemory> {
         None

@@ -9,7 +9,7 @@ use crate::scene::Sensing;
 use nalgebra::Vector3;
 use serde::Serialize;
 use surefoot::balance::WholeBodyFoot;
-use surefoot::estimate::{EstimateFault, StartPose};
+use surefoot::estimate::{Concern, EstimateFault, EstimateWatch, Health, StartPose};
 use surefoot::spatial::{Pose, Quaternion};
 
 /// A foot's switch closes at this share of the robot's weight: 20 N of a person's.
@@ -52,6 +52,9 @@ pub(super) struct Estimating {
     period_s: f64,
     ticks: u64,
     tally: EstimateTally,
+    watch: EstimateWatch<f64>,
+    /// What it is not believed any more for.
+    distrusted: Option<Concern>,
 }
 
 impl Estimating {
@@ -76,6 +79,8 @@ impl Estimating {
             period_s,
             ticks: 0,
             tally: EstimateTally::default(),
+            watch: EstimateWatch::new(),
+            distrusted: None,
             robot: robot.clone(),
         }
     }
@@ -108,6 +113,11 @@ impl Estimating {
     /// So far.
     pub fn tally(&self) -> &EstimateTally {
         &self.tally
+    }
+
+    /// What it is not to be believed any more for.
+    pub fn distrusted(&self) -> Option<Concern> {
+        self.distrusted
     }
 
     /// What sensors have read at the last tick, and where the robot was at the first, for a filter on a target.
@@ -146,6 +156,9 @@ impl Estimating {
         let time_s = self.ticks as f64 * self.period_s;
         self.ticks += 1;
         self.tally.feet_made_anew += filtered.made_anew;
+        let health = Health { worst: filtered.worst, count: u8::from(filtered.worst.is_some()) };
+        let distrusted = self.watch.after(&health, self.period_s);
+        self.distrusted = self.distrusted.or(distrusted);
         if let Some(worst) = filtered.worst {
             self.tally.doubtful_ticks += 1;
             let what = || EstimateDoubt { time_s, what: worst.to_string() };

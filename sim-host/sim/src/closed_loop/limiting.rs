@@ -96,7 +96,7 @@ impl LimitTally {
     pub(super) fn bound(&mut self, limit: WorstLimit) {
         let of = limit
             .joint
-            .map_or_else(|| limit.leg.clone(), |joint| format!("{}, joint {joint}", limit.leg));
+            .map_or_else(|| limit.leg.clone(), |joint| format!("{} joint {joint}", limit.leg));
         self.last.limit = Some(NotedLimit { limit: limit.limit, of, relief: limit.relief });
         if self.worst.as_ref().is_none_or(|worst| worst.relief < limit.relief) {
             self.worst = Some(limit);

@@ -5,6 +5,7 @@ mod aloft;
 mod approximate;
 mod askew;
 mod at_rest;
+mod carrying;
 mod cause;
 mod controller;
 mod disturbance;

@@ -257,6 +257,9 @@ fn advance(
         if let Some((readings, start)) = sensors.readings() {
             controller.sense(readings, start);
         }
+        if let Some(concern) = sensors.distrusted() {
+            controller.stop(StopReason::Estimate(concern));
+        }
         let command = command(sensors.seen(), controller, touched, time)?;
         if let Some(filtered) = controller.filtered() {
             sensors.note(&filtered);
@@ -393,6 +396,9 @@ fn stopped(Stop { time_s, reason }: Stop, robot: &Robot) -> Failure {
         }
         StopReason::Tilt | StopReason::Height | StopReason::FreeFall => {
             "see the record: which foot slips, tips or leaves the floor first"
+        }
+        StopReason::Estimate(_) => {
+            "a start at rest and upright, sensors as they are said to be, feet that hold and switches that agree"
         }
         _ => "see the measurements before; the limits are those of the robot's description",
     };

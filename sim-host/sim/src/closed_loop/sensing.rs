@@ -10,7 +10,7 @@ use crate::record::EncoderMemory;
 use crate::robot::{MOST_LEGS, SharedRobot};
 use crate::scene::{Sensing, StateSource};
 use nalgebra::Vector3;
-use surefoot::estimate::{EstimateFault, StartPose};
+use surefoot::estimate::{Concern, EstimateFault, StartPose};
 
 /// The sensors of a robot, read once a tick. Ideal ones read the state as it is.
 #[derive(Clone, Debug)]
@@ -135,6 +135,11 @@ impl Sensors {
     /// What the estimator has failed with.
     pub fn fault(&self) -> Option<EstimateFault> {
         self.fault
+    }
+
+    /// What the estimator is not to be believed any more for.
+    pub fn distrusted(&self) -> Option<Concern> {
+        self.estimating.as_ref()?.distrusted()
     }
 
     /// What the estimator has said so far, if there is one.

@@ -84,6 +84,10 @@ impl<T: Real, const LEGS: usize> Controller for SupervisedController<T, LEGS> {
         self.inner.resume_observed(memory)
     }
 
+    fn stop(&mut self, reason: StopReason) {
+        self.supervisor.stop(reason);
+    }
+
     fn stopped(&self) -> Option<StopReason> {
         self.supervisor.reason()
     }

@@ -1,5 +1,6 @@
 //! A robot that walks: core's planner over its whole-body controller, from commands of a scene.
 
+use super::carrying::Carrying;
 use super::controller::{Commanded, ControlFailure, Controller, Scalar, measured};
 use super::filter::FilterPlace;
 use super::gait::GaitTally;
@@ -15,7 +16,7 @@ use nalgebra::{Vector2, Vector3};
 use surefoot::Real;
 use surefoot::balance::{
     Fault, ObservedMotion, Reference, RobotState, SafetyLimits, StopReason, Supervisor,
-    WholeBodyCommand, WholeBodyController, WholeBodyState, observe, whole_body_motion_tick,
+    WholeBodyCommand, WholeBodyController, WholeBodyState, observe, whole_body_motion_tick_under,
 };
 use surefoot::model::Tree;
 use surefoot::spatial::{Quaternion, Wrench};
@@ -103,6 +104,7 @@ struct Walker<T, const N: usize, const NQ: usize, const NV: usize> {
     height: T,
     /// Of the lower foot at the start, and at the last tick, m.
     ground: [T; 2],
+    carrying: Carrying<T>,
 }
 
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usize>
@@ -168,6 +170,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
             period,
             height: T::of(start.positions[2]),
             ground: [ground; 2],
+            carrying: Carrying::new(robot.mass * robot.gravity, stature.height),
             body,
         }
     }
@@ -182,14 +185,26 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
         state: &WholeBodyState<T, NQ, NV>,
     ) -> Result<WholeBodyCommand<T, FEET, NV>, Fault> {
         let asked = self.asked();
-        let Self { body, planner, memory, forces, period, ground, .. } = self;
-        let WholeBodyHost { tree, model, settings, memory: rows, friction, .. } = body;
+        let Self { body, planner, memory, forces, period, ground, carrying, .. } = self;
+        let WholeBodyHost { tree, model, settings, memory: rows, friction, observer, .. } = body;
         let controller = WholeBodyController { tree, robot: model, settings };
         let observed = observe(&controller, state)?;
-        let motion = observed.motion(&controller)?;
+        let mut motion = observed.motion(&controller)?;
+        let external = observer.as_ref().map(|observer| {
+            let stands = matches!(memory.phase, Phase::Standing);
+            carrying.read(&observer.wrench(), memory.heading, stands);
+            let center = &mut motion.center_of_mass;
+            let d = carrying.offset(
+                center.xy() - Vector2::new(state.positions[0], state.positions[1]),
+                memory.heading,
+            );
+            (center.x, center.y) = (center.x + d.x, center.y + d.y);
+            carrying.wrench(memory.heading)
+        });
         ground[1] = lower_foot(&planner.stature, &motion);
         let task = planner.plan(memory, &motion, forces, &asked, *period)?;
-        let mut command = whole_body_motion_tick(&controller, &observed, &task.motion, rows)?;
+        let mut command =
+            whole_body_motion_tick_under(&controller, &observed, &task.motion, external, rows)?;
         if let Some(friction) = friction {
             let wanted = Some(&command.accelerations[6..]);
             friction.add(&mut command.torques[6..], &state.velocities[6..], wanted);
@@ -246,12 +261,14 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
 
     fn tick(&mut self, state: &PlantState) -> Result<Commanded, ControlFailure> {
         let Self { walker, supervisor } = self;
+        walker.body.look(state);
         let Some(supervisor) = supervisor else {
             let state = WholeBodyState {
                 positions: padded(&state.positions),
                 velocities: padded(&state.velocities),
             };
             let command = walker.command(&state).map_err(ControlFailure::Fault)?;
+            walker.body.sent(&command.torques[6..]);
             return Ok(walker.body.commanded(&command.torques[6..], command.desired_wrench));
         };
         let mut in_rows = state.clone();
@@ -267,6 +284,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
             Ok(command.in_rows())
         };
         let answer = supervisor.step_with(Some(&measured(&in_rows)), &reference, false, tick);
+        self.walker.body.sent(answer.joint_torques.as_flattened());
         let wrench = answer.command.map_or_else(Wrench::zero, |command| command.desired_wrench);
         Ok(self.walker.body.commanded(answer.joint_torques.as_flattened(), wrench))
     }
@@ -276,6 +294,19 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
         for (to, force) in self.walker.forces.iter_mut().zip(normal_forces) {
             *to = T::of(*force);
         }
+        let planned = self.walker.planned();
+        if let Some(observer) = &mut self.walker.body.observer {
+            let pressed = normal_forces.iter().zip(planned);
+            let stands: Vec<bool> = pressed.map(|(f, planned)| *f > 0.0 && planned).collect();
+            observer.touch(&stands);
+        }
+    }
+
+    fn support(&self) -> Option<[f64; 3]> {
+        let Walker { body, memory, .. } = &self.walker;
+        // While a swinging leg or a landing shakes it, the feet's force does not point up.
+        let stands = matches!(memory.phase, Phase::Standing);
+        body.observer.as_ref().filter(|_| stands)?.support()
     }
 
     fn planned(&self) -> Option<[bool; MOST_LEGS]> {
@@ -289,6 +320,12 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
 
     fn limits(&self) -> Option<LimitTally> {
         Some(self.walker.body.tally.clone())
+    }
+
+    fn stop(&mut self, reason: StopReason) {
+        if let Some(supervisor) = &mut self.supervisor {
+            supervisor.stop(reason);
+        }
     }
 
     fn stopped(&self) -> Option<StopReason> {

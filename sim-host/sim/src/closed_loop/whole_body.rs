@@ -33,7 +33,7 @@ pub(super) struct WholeBodyHost<T, const N: usize, const NQ: usize, const NV: us
     contacts: [bool; FEET],
     pub(super) time_s: f64,
     pub(super) tally: LimitTally,
-    observer: Option<Box<dyn Observe<T>>>,
+    pub(super) observer: Option<Box<dyn Observe<T>>>,
     pub(super) friction: Option<Friction<T>>,
 }
 
@@ -111,14 +111,14 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> WholeBodyHost<T,
     }
 
     /// Another tick's state, as the observer takes it.
-    fn look(&mut self, state: &PlantState) {
+    pub(super) fn look(&mut self, state: &PlantState) {
         if let Some(observer) = &mut self.observer {
             observer.look(state);
         }
     }
 
     /// The torques that are sent.
-    fn sent(&mut self, torques: &[T]) {
+    pub(super) fn sent(&mut self, torques: &[T]) {
         if let Some(observer) = &mut self.observer {
             observer.sent(torques);
         }
@@ -268,6 +268,10 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize, const ROWS: usiz
 
     fn resume_observed(&mut self, memory: &[f64]) -> bool {
         self.inner.resume_observed(memory)
+    }
+
+    fn stop(&mut self, reason: StopReason) {
+        self.supervisor.stop(reason);
     }
 
     fn stopped(&self) -> Option<StopReason> {

@@ -12,7 +12,7 @@ pub struct BuiltIn {
 }
 
 /// All built-in scenes.
-pub const BUILT_IN: [BuiltIn; 21] = [
+pub const BUILT_IN: [BuiltIn; 22] = [
     BuiltIn { name: "experiment-1", text: include_str!("../../scenes/experiment-1.toml") },
     BuiltIn {
         name: "experiment-1-pushes",
@@ -33,6 +33,7 @@ pub const BUILT_IN: [BuiltIn; 21] = [
     BuiltIn { name: "run", text: include_str!("../../scenes/run.toml") },
     BuiltIn { name: "jump", text: include_str!("../../scenes/jump.toml") },
     BuiltIn { name: "carry", text: include_str!("../../scenes/carry.toml") },
+    BuiltIn { name: "walk-estimated", text: include_str!("../../scenes/walk-estimated.toml") },
     BuiltIn { name: "turn", text: include_str!("../../scenes/turn.toml") },
     BuiltIn { name: "stand-loaded", text: include_str!("../../scenes/stand-loaded.toml") },
     BuiltIn { name: "box-drop", text: include_str!("../../scenes/box-drop.toml") },

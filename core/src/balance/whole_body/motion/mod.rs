@@ -51,4 +51,4 @@ mod tick;
 
 pub use objective::MotionWeights;
 pub(super) use range::kept;
-pub use tick::whole_body_motion_tick;
+pub use tick::{whole_body_motion_tick, whole_body_motion_tick_under};

@@ -47,6 +47,46 @@ pub fn whole_body_motion_tick<
     task: &MotionTask<T, FEET>,
     memory: &mut WholeBodyMemory<T>,
 ) -> Result<WholeBodyCommand<T, FEET, NV>, Fault> {
+    motion_tick_under(controller, observed, task, None, memory)
+}
+
+/// The same for a robot on whose central body a known wrench acts from outside, about its centre of mass in
+/// world axes (N, N·m); `None` where nobody knows of one. A centre of pressure is that of the ground's forces, which
+/// carry the wrench too.
+///
+/// # Errors
+/// As of [`whole_body_motion_tick`]; [`Fault::Overflow`] for a wrench that is not finite.
+pub fn whole_body_motion_tick_under<
+    T: Real,
+    const N: usize,
+    const NQ: usize,
+    const NV: usize,
+    const FEET: usize,
+>(
+    controller: &WholeBodyController<'_, T, N, NQ, NV, FEET>,
+    observed: &ObservedBody<T, N, NQ, NV>,
+    task: &MotionTask<T, FEET>,
+    external: Option<Wrench<T>>,
+    memory: &mut WholeBodyMemory<T>,
+) -> Result<WholeBodyCommand<T, FEET, NV>, Fault> {
+    motion_tick_under(controller, observed, task, external, memory)
+}
+
+/// Of either, in one piece: without a wrench nothing of it runs.
+#[inline(always)]
+fn motion_tick_under<
+    T: Real,
+    const N: usize,
+    const NQ: usize,
+    const NV: usize,
+    const FEET: usize,
+>(
+    controller: &WholeBodyController<'_, T, N, NQ, NV, FEET>,
+    observed: &ObservedBody<T, N, NQ, NV>,
+    task: &MotionTask<T, FEET>,
+    external: Option<Wrench<T>>,
+    memory: &mut WholeBodyMemory<T>,
+) -> Result<WholeBodyCommand<T, FEET, NV>, Fault> {
     let WholeBodyController { tree, robot, settings } = controller;
     if !is_finite(task) {
         return Err(Fault::NotFinite(Input::Reference));
@@ -56,7 +96,17 @@ pub fn whole_body_motion_tick<
     let mut feet = [None; FEET];
     set_feet(controller, observed, task, &mut accelerations, &mut feet)?;
     let ranges = ranges(robot, settings, state, &accelerations);
-    let bias = inverse_dynamics(tree, poses, &state.velocities, &accelerations, None);
+    let mut bias = inverse_dynamics(tree, poses, &state.velocities, &accelerations, None);
+    let mut gravity = tree.gravity;
+    if let Some(external) = external {
+        // Of the ground's wrenches this much is made already; the whole falls as if gravity were so much more.
+        let (force, torque) =
+            (central.rotation.tr_mul(&external.force), central.rotation.tr_mul(&external.torque));
+        for (bias, w) in bias.iter_mut().zip((Wrench { force, torque }).to_array()) {
+            *bias -= w;
+        }
+        gravity += external.force / robot.mass;
+    }
     if !bias.iter().all(|x| x.is_finite()) {
         return Err(Fault::Overflow);
     }
@@ -64,7 +114,7 @@ pub fn whole_body_motion_tick<
     let around = Surroundings {
         central: &central.rotation,
         position: first3(&state.positions),
-        gravity: tree.gravity,
+        gravity,
         mass: robot.mass,
     };
     let free = dynamics.free();
