@@ -189,6 +189,27 @@ impl Elimination {
         }
     }
 
+    /// The same of impulses on a few nodes, with all others of their trees: `near`, ascending. Nothing else moves.
+    pub fn solve_near(
+        &mut self,
+        nodes: &[Node],
+        near: &[usize],
+        impulse: impl Fn(usize) -> Pair,
+        corrections: &mut [f64],
+    ) {
+        self.motions.fill(Pair::ZERO);
+        corrections.fill(0.0);
+        for k in near {
+            self.impulses[*k] = impulse(*k);
+        }
+        for k in near.iter().rev() {
+            self.collect(*k, nodes, &|_| 0.0);
+        }
+        for k in near {
+            self.distribute(*k, nodes, corrections);
+        }
+    }
+
     /// Takes the impulse on a node, with what is outboard, to its columns, and hands the rest inboard.
     #[inline(always)]
     fn collect(&mut self, k: usize, nodes: &[Node], own: &impl Fn(usize) -> f64) {

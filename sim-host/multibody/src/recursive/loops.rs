@@ -10,6 +10,7 @@
 
 use super::super::BodyState;
 use super::super::closure::Closure;
+use super::super::joint::JointConstraint;
 use super::super::scale::beyond;
 use super::super::system::{System, WORLD};
 use super::closing_rows::{ClosingRow, Seen, closing_rows};
@@ -33,6 +34,8 @@ pub(super) struct Loops {
     columns: usize,
     /// Of all arms of the system, and its bodies' radii of gyration, m.
     length: f64,
+    /// Nodes of the trees that each constraint's bodies belong to; none where there are few constraints.
+    near: Vec<Vec<usize>>,
     /// Impulses of closing joints' motors at a step's beginning, by body.
     driven: Vec<(usize, Pair)>,
 }
@@ -63,7 +66,13 @@ impl Loops {
             }
         }
         let n = rows.len();
+        let near = if n > MANY && system.strikers().is_empty() {
+            rows.iter().map(|row| near(system, row)).collect()
+        } else {
+            Vec::new()
+        };
         Self {
+            near,
             rows,
             corrections: vec![0.0; n],
             answers: vec![0.0; n * columns],
@@ -186,7 +195,10 @@ impl Loops {
                 sum
             };
             let answer = &mut self.answers[j * self.columns..(j + 1) * self.columns];
-            tree.solve(nodes, unit, |_| 0.0, answer);
+            match self.near.get(j) {
+                Some(near) => tree.solve_near(nodes, near, unit, answer),
+                None => tree.solve(nodes, unit, |_| 0.0, answer),
+            }
             for i in 0..n {
                 self.schur[i * n + j] = self.rows[i].along(tree.motions());
             }
@@ -266,6 +278,21 @@ impl Loops {
         self.corrections = right;
     }
 }
+
+/// All nodes of the trees that the bodies of a constraint belong to.
+fn near(system: &System, row: &Row) -> Vec<usize> {
+    let root = |link: usize| {
+        let floats = |k: &usize| system.links()[*k].joint.constraint == JointConstraint::Floating;
+        let inboard = |k: &usize| system.links()[*k].inboard.filter(|_| !floats(k));
+        std::iter::successors(Some(link), inboard).last()
+    };
+    let roots = row.bodies.map(|body| body.and_then(root));
+    let is_near = |k: &usize| root(*k).is_some_and(|of| roots.contains(&Some(of)));
+    (0..system.links().len()).filter(is_near).collect()
+}
+
+/// Constraints from which on it pays to know which trees each of them can move.
+const MANY: usize = 32;
 
 /// Constraints of all loops, at most.
 pub const MOST: usize = 96;

@@ -37,7 +37,13 @@ impl Layout {
         match &self.kind {
             LayoutKind::Orientation => false,
             LayoutKind::Rods(_) => true,
-            LayoutKind::Bodies(system) => system.closures().is_empty() && !self.joints.is_empty(),
+            // What else acts between bodies would have to be told from what joints bear.
+            LayoutKind::Bodies(system) => {
+                system.closures().is_empty()
+                    && system.springs().is_empty()
+                    && system.rolling().is_empty()
+                    && !self.joints.is_empty()
+            }
         }
     }
 
