@@ -43,7 +43,11 @@ fn scalar(name: &str) -> PyResult<Scalar> {
 }
 
 /// Rows of equal length as an array.
-fn rows<'py>(py: Python<'py>, rows: &[Vec<f64>], columns: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+fn rows<'py>(
+    py: Python<'py>,
+    rows: &[Vec<f64>],
+    columns: usize,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
     if rows.is_empty() {
         return Ok(PyArray2::zeros(py, [0, columns], false));
     }

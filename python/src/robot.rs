@@ -85,7 +85,8 @@ impl Robot {
     ) -> PyResult<Bound<'py, PyDict>> {
         let dynamics = Dynamics::new(&self.robot, Precision::F64).map_err(wrong)?;
         let states = q.as_array().nrows();
-        let all = [&q, &v, &a, &tau].map(|array| array.as_array().outer_iter().map(|row| row.to_vec()).collect::<Vec<_>>());
+        let all = [&q, &v, &a, &tau]
+            .map(|array| array.as_array().outer_iter().map(|row| row.to_vec()).collect::<Vec<_>>());
         if all.iter().any(|rows| rows.len() != states) {
             return Err(wrong(format!("q has {states} rows; expected as many of v, a and tau")));
         }
@@ -115,7 +116,9 @@ impl Robot {
         let home = self.robot.home_poses();
         let mut q = Vec::new();
         for (link, pose) in self.robot.links.iter().zip(home) {
-            use surefoot_robots::RobotMotion::{Continuous, Floating, Prismatic, Revolute, Spherical};
+            use surefoot_robots::RobotMotion::{
+                Continuous, Floating, Prismatic, Revolute, Spherical,
+            };
             let is_mujoco = self.convention == Convention::Mujoco;
             let [x, y, z, w] = <[f64; 4]>::from(pose.rotation.coords);
             let turn = if is_mujoco { [w, x, y, z] } else { [x, y, z, w] };

@@ -100,7 +100,11 @@ impl Study {
     }
 
     /// The numbers of samples' coordinates, a row a sample.
-    fn values<'py>(&self, py: Python<'py>, samples: Vec<u64>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn values<'py>(
+        &self,
+        py: Python<'py>,
+        samples: Vec<u64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let of = |sample: &u64| self.study.numbers(&self.study.point(*sample));
         let all: Vec<Vec<f64>> = samples.iter().map(of).collect();
         rows(py, &all, self.study.coordinates().len())
@@ -113,7 +117,12 @@ impl Study {
 
     /// Runs samples, on so many processors; a list of rows, as JSON.
     #[pyo3(signature = (samples, workers = None))]
-    fn run_json(&self, py: Python<'_>, samples: Vec<u64>, workers: Option<usize>) -> PyResult<String> {
+    fn run_json(
+        &self,
+        py: Python<'_>,
+        samples: Vec<u64>,
+        workers: Option<usize>,
+    ) -> PyResult<String> {
         let workers = workers.unwrap_or_else(all_processors);
         let stop = AtomicBool::new(false);
         let done = py.detach(|| {
@@ -128,7 +137,9 @@ impl Study {
     /// The certificate of the rows of samples 0 to `samples` − 1, each there once; as JSON.
     fn certificate_json(&self, rows: &str, samples: u64, confidence: f64) -> PyResult<String> {
         if !(confidence > 0.0 && confidence < 1.0) {
-            return Err(wrong(format!("confidence {confidence}: expected a number between 0 and 1")));
+            return Err(wrong(format!(
+                "confidence {confidence}: expected a number between 0 and 1"
+            )));
         }
         let rows = self.rows(rows, samples)?;
         let certificate = Certificate::of(&self.study, &self.contents(samples), &rows, confidence);

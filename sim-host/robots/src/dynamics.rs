@@ -136,12 +136,9 @@ impl<'a> Dynamics<'a> {
         [q, v, a, tau]: [&[f64]; 4],
     ) -> Result<Evaluation, DynamicsError> {
         let wanted = (self.coordinates(convention), self.robot.degrees_of_freedom());
-        for (name, found, wanted) in [
-            ("q", q, wanted.0),
-            ("v", v, wanted.1),
-            ("a", a, wanted.1),
-            ("tau", tau, wanted.1),
-        ] {
+        for (name, found, wanted) in
+            [("q", q, wanted.0), ("v", v, wanted.1), ("a", a, wanted.1), ("tau", tau, wanted.1)]
+        {
             if found.len() != wanted {
                 let message = format!("{name}: {} numbers; expected {wanted}", found.len());
                 return Err(DynamicsError::States { file: self.robot.name.clone(), message });
@@ -153,7 +150,12 @@ impl<'a> Dynamics<'a> {
             let (nq, nv) = (convention.coordinates(motion), motion.degrees_of_freedom());
             let (own_q, own_v) = (at_q..at_q + nq, at_v..at_v + nv);
             (at_q, at_v) = (at_q + nq, at_v + nv);
-            JointSlices { q: &q[own_q], v: &v[own_v.clone()], a: &a[own_v.clone()], tau: &tau[own_v] }
+            JointSlices {
+                q: &q[own_q],
+                v: &v[own_v.clone()],
+                a: &a[own_v.clone()],
+                tau: &tau[own_v],
+            }
         });
         let joints: Vec<_> = joints.collect();
         self.at(convention, &joints).map_err(|error| match error {

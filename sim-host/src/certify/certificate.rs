@@ -278,7 +278,11 @@ fn deciding(study: &Study, rows: &[&Row], points: &[Vec<f64>], failures: u64) ->
     let results: Vec<f64> = rows.iter().map(result).collect();
     let found = sensitivities(points, &results)?;
     let name = |k: usize| study.coordinates()[k].name.clone();
-    let share = |(coordinate, share): (usize, &f64)| Share { name: name(coordinate), coordinate, share: *share };
+    let share = |(coordinate, share): (usize, &f64)| Share {
+        name: name(coordinate),
+        coordinate,
+        share: *share,
+    };
     let mut coordinates: Vec<Share> = found.first.iter().enumerate().map(share).collect();
     coordinates.sort_by(|a, b| b.share.total_cmp(&a.share));
     Some(Deciding {
@@ -313,7 +317,11 @@ fn rounded(x: f64) -> String {
     }
     let digits = (1 - x.abs().log10().floor() as i32).clamp(0, 9) as usize;
     let text = format!("{x:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
 }
 
 #[cfg(test)]

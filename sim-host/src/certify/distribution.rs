@@ -160,7 +160,9 @@ mod tests {
 
     #[test]
     fn directions_have_their_length() {
-        for (horizontal, length) in [(true, None), (false, Some([2.0, 2.5])), (true, Some([0.0, 1.0]))] {
+        for (horizontal, length) in
+            [(true, None), (false, Some([2.0, 2.5])), (true, Some([0.0, 1.0]))]
+        {
             let law = Distribution::Direction { horizontal, length };
             let u = vec![0.3; law.coordinates().len()];
             let Value::Array(vector) = law.value(&u, 7.0) else { panic!("a vector") };

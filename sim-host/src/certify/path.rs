@@ -19,7 +19,9 @@ enum Step {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PathError {
     /// Not a path.
-    #[error("{text}: expected names with dots between them, and numbers of entries in brackets: block.mass_kg, pushes[0].force_n")]
+    #[error(
+        "{text}: expected names with dots between them, and numbers of entries in brackets: block.mass_kg, pushes[0].force_n"
+    )]
     Malformed {
         /// What was found.
         text: String,
@@ -123,7 +125,11 @@ impl FieldPath {
                         Step::Key(_) => "a table",
                         Step::Entry(_) => "a list",
                     };
-                    return Err(PathError::NoContainer { path: path(), found: kind(other), expected });
+                    return Err(PathError::NoContainer {
+                        path: path(),
+                        found: kind(other),
+                        expected,
+                    });
                 }
             };
         }
@@ -194,13 +200,17 @@ mod tests {
         for text in ["", ".", "a.", "a..b", "a[", "a[x]", "a[0]b", "\"a", "[0]"] {
             assert!(matches!(FieldPath::parse(text), Err(PathError::Malformed { .. })), "{text}");
         }
-        let refused = |text| FieldPath::parse(text).expect("a path").set(&mut document(), Value::Integer(0));
+        let refused =
+            |text| FieldPath::parse(text).expect("a path").set(&mut document(), Value::Integer(0));
         assert_eq!(
             refused("b.c[2]"),
             Err(PathError::NoEntry { path: "b.c".into(), entry: 2, length: 2 })
         );
         assert!(matches!(refused("a.b"), Err(PathError::NoContainer { .. })));
         assert!(matches!(refused("b[0]"), Err(PathError::NoContainer { .. })));
-        assert!(matches!(refused("pushes[0].at_s"), Err(PathError::NoContainer { found: "left out", .. })));
+        assert!(matches!(
+            refused("pushes[0].at_s"),
+            Err(PathError::NoContainer { found: "left out", .. })
+        ));
     }
 }

@@ -77,7 +77,12 @@ impl Definition {
     ///
     /// # Errors
     /// [`StudyError`] for what cannot be read.
-    pub fn read(scene: &str, vary: &Path, seed: u64, sampling: Sampling) -> Result<Self, StudyError> {
+    pub fn read(
+        scene: &str,
+        vary: &Path,
+        seed: u64,
+        sampling: Sampling,
+    ) -> Result<Self, StudyError> {
         let text = read(vary)?;
         Self::new(scene, (&vary.display().to_string(), &text), seed, sampling)
     }
@@ -257,7 +262,8 @@ impl Study {
             rest = others;
             let stream = Stream::Seed(number as u64);
             // Fits a whole number of 32 bits, whatever reads it.
-            let seed = i64::from(generator(self.definition.seed, sample, stream).random::<u32>() >> 1);
+            let seed =
+                i64::from(generator(self.definition.seed, sample, stream).random::<u32>() >> 1);
             set(&mut document, parameter, own, seed)
                 .map_err(|message| StudyError::Sample { sample, message })?;
         }

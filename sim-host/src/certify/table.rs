@@ -93,9 +93,13 @@ impl Folder {
             let is_same = before.is_of(contents);
             if resume && !is_same {
                 let differs = before.difference(contents);
-                return Err(format!("{}: it holds runs of another study: {differs}", path.display()));
+                return Err(format!(
+                    "{}: it holds runs of another study: {differs}",
+                    path.display()
+                ));
             }
-            let is_unfinished = before.shard.samples(before.samples).any(|k| !there.contains_key(&k));
+            let is_unfinished =
+                before.shard.samples(before.samples).any(|k| !there.contains_key(&k));
             if !resume && is_unfinished && !there.is_empty() {
                 return Err(format!(
                     "{}: it holds {} runs of an unfinished study: --resume goes on with it, --out names another folder",
@@ -124,9 +128,10 @@ impl Folder {
     pub fn keep(&mut self, study: &Study, row: &Row) -> Result<(), String> {
         let mut line = csv::Writer::from_writer(Vec::new());
         let cells = cells(study, row);
-        let line = line.write_record(&cells).map_err(|error| error.to_string()).and_then(|()| {
-            line.into_inner().map_err(|error| error.to_string())
-        })?;
+        let line = line
+            .write_record(&cells)
+            .map_err(|error| error.to_string())
+            .and_then(|()| line.into_inner().map_err(|error| error.to_string()))?;
         // In one piece, so that processes that die leave whole lines but for the last.
         let name = || self.path.join(RUNS).display().to_string();
         self.lines.write_all(&line).map_err(|error| format!("{}: {error}", name()))
@@ -150,7 +155,10 @@ impl Contents {
     fn difference(&self, other: &Self) -> String {
         let (a, b) = (&self.definition, &other.definition);
         if a.scene_text != b.scene_text {
-            return format!("of the scene {}, not {}, or of another version of it", a.scene, b.scene);
+            return format!(
+                "of the scene {}, not {}, or of another version of it",
+                a.scene, b.scene
+            );
         }
         if a.vary_text != b.vary_text {
             return format!("{} is not what it was", b.vary);
@@ -220,7 +228,11 @@ fn read_rows(folder: &Path) -> Result<Rows, String> {
             .map(|record| record.iter().take(columns).map(str::to_owned).collect())
             .map_err(|error| format!("{}: {error}", path.display()))?;
         let row = Row::from_cells(&cells).ok_or_else(|| {
-            format!("{}:{}: no run; expected {columns} columns as in the head", path.display(), line + 2)
+            format!(
+                "{}:{}: no run; expected {columns} columns as in the head",
+                path.display(),
+                line + 2
+            )
         })?;
         rows.insert(row.sample, row);
     }
@@ -238,12 +250,14 @@ pub fn merge(folders: &[PathBuf]) -> Result<(Study, Contents, Rows), String> {
     for folder in folders {
         let folder = folder.as_path();
         let contents = read_contents(folder)?.ok_or_else(|| {
-            format!("{}: no {CONTENTS}; expected a folder that `certify` has written", folder.display())
+            format!(
+                "{}: no {CONTENTS}; expected a folder that `certify` has written",
+                folder.display()
+            )
         })?;
         if let Some((first, of_first)) = &merged {
-            let wrong = |what: String| {
-                Err(format!("{} and {}: {what}", first.display(), folder.display()))
-            };
+            let wrong =
+                |what: String| Err(format!("{} and {}: {what}", first.display(), folder.display()));
             if !of_first.is_of(&contents) {
                 return wrong(format!("different studies: {}", of_first.difference(&contents)));
             }

@@ -136,7 +136,8 @@ impl Vary {
                     for (name, entry) in entries {
                         let start = Some(name.span().start);
                         let name = name.get_ref().as_ref();
-                        let wrong = |message: String| at(start, format!("vary.\"{name}\": {message}"));
+                        let wrong =
+                            |message: String| at(start, format!("vary.\"{name}\": {message}"));
                         let entry = Entry::deserialize(ValueDeserializer::from(entry.clone()))
                             .map_err(|error| wrong(error.message().to_owned()))?;
                         parameters.push(entry.parameter(name, &scene).map_err(wrong)?);
@@ -191,9 +192,12 @@ impl Entry {
     }
 
     fn distribution(self, scene: &Table) -> Result<Distribution, String> {
-        let range = |what: &str, [low, high]: [f64; 2]| match low < high && (high - low).is_finite() {
+        let range = |what: &str, [low, high]: [f64; 2]| match low < high && (high - low).is_finite()
+        {
             true => Ok([low, high]),
-            false => Err(format!("{what} = [{low}, {high}]: expected a smaller number, then a larger one")),
+            false => Err(format!(
+                "{what} = [{low}, {high}]: expected a smaller number, then a larger one"
+            )),
         };
         let mut said = Vec::new();
         if let Some(r) = self.uniform {
@@ -203,7 +207,9 @@ impl Entry {
             let [from, to] = range("time", r)?;
             let end = scene.get("duration_s").and_then(number).unwrap_or(f64::INFINITY);
             if !(from >= 0.0 && to <= end) {
-                return Err(format!("time = [{from}, {to}]: expected times within the scene's {end} s"));
+                return Err(format!(
+                    "time = [{from}, {to}]: expected times within the scene's {end} s"
+                ));
             }
             said.push(Distribution::Uniform([from, to]));
         }
@@ -261,7 +267,14 @@ impl Entry {
         let idle = [
             ("within", self.within.is_some() && !matches!(law, Distribution::Normal { .. })),
             ("length", self.length.is_some() && !matches!(law, Distribution::Direction { .. })),
-            ("factor", self.factor && matches!(law.value(&[0.5; 3], 1.0), Value::Array(_) | Value::String(_) | Value::Boolean(_))),
+            (
+                "factor",
+                self.factor
+                    && matches!(
+                        law.value(&[0.5; 3], 1.0),
+                        Value::Array(_) | Value::String(_) | Value::Boolean(_)
+                    ),
+            ),
             ("factor", self.factor && matches!(law, Distribution::Seed | Distribution::Set(_))),
         ];
         match idle.iter().find(|(_, is_idle)| *is_idle) {

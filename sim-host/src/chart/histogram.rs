@@ -69,9 +69,12 @@ impl Histogram {
         both.iter_mut().zip(failed).for_each(|(both, failed)| *both += failed);
         plane.draw_series(bars([0; BARS], worked, PALE))?;
         plane.draw_series(bars(worked, both, COLORS[1]))?;
-        for (line, (color, name)) in [(PALE, "no failure"), (COLORS[1], "failed")].into_iter().enumerate() {
+        for (line, (color, name)) in
+            [(PALE, "no failure"), (COLORS[1], "failed")].into_iter().enumerate()
+        {
             let y = at(30 + 19 * line as i32);
-            legend.draw(&Rectangle::new([(at(8), y - at(6)), (at(22), y + at(6))], color.filled()))?;
+            legend
+                .draw(&Rectangle::new([(at(8), y - at(6)), (at(22), y + at(6))], color.filled()))?;
             legend.draw(&Text::new(name, (at(30), y - at(7)), font(14)))?;
         }
         Ok(())

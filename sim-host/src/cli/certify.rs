@@ -109,7 +109,9 @@ pub fn certify(options: &Options) -> ExitCode {
         Ok(said) => say(&said, ExitCode::SUCCESS),
         Err(Ended::Wrong(message)) => bad_input(&message, result.json),
         Err(Ended::Interrupted(runs)) => {
-            complain(format_args!("interrupted after {runs} runs, which are kept: --resume goes on"));
+            complain(format_args!(
+                "interrupted after {runs} runs, which are kept: --resume goes on"
+            ));
             ExitCode::from(INTERRUPTED)
         }
     }
@@ -173,7 +175,9 @@ fn check(result: &ResultOptions) -> Result<(), String> {
     let confidence = result.confidence;
     match confidence > 0.0 && confidence < 1.0 {
         true => Ok(()),
-        false => Err(format!("--confidence {confidence}: expected a number between 0 and 1, as 0.99")),
+        false => {
+            Err(format!("--confidence {confidence}: expected a number between 0 and 1, as 0.99"))
+        }
     }
 }
 
@@ -217,7 +221,8 @@ fn run_missing(
 fn bar(name: &str, runs: usize) -> ProgressBar {
     let bar = ProgressBar::new(runs as u64);
     // The template is constant and valid; were it not, the default style would do.
-    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} runs {eta} left") {
+    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} runs {eta} left")
+    {
         bar.set_style(style);
     }
     bar.set_message(name.to_owned());
@@ -237,7 +242,13 @@ fn on_target(study: &Study, rows: &Rows, options: &Options) -> Result<TargetRuns
         if there.bits != row.bits {
             return Err(format!(
                 "sample {}: the target's run is not the host's: bits {} and {}, ended at {} s ({}) and {} s ({})",
-                row.sample, there.bits, row.bits, there.time_s, there.failure, row.time_s, row.failure
+                row.sample,
+                there.bits,
+                row.bits,
+                there.time_s,
+                there.failure,
+                row.time_s,
+                row.failure
             ));
         }
         samples.push(row.sample);

@@ -97,7 +97,11 @@ fn lines(out: &mut String, certificate: &Certificate) -> std::fmt::Result {
         )?;
     }
     if let Some(deciding) = &certificate.sensitivities {
-        writeln!(out, "\n  share of the variance of the {} (±{:.3}):", deciding.of, deciding.noise)?;
+        writeln!(
+            out,
+            "\n  share of the variance of the {} (±{:.3}):",
+            deciding.of, deciding.noise
+        )?;
         for share in deciding.coordinates.iter().take(8) {
             writeln!(out, "  {:>7.3}  {}", share.share, share.name)?;
         }

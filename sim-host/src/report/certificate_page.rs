@@ -90,9 +90,10 @@ fn deciding_note(certificate: &Certificate) -> Option<String> {
         "failure" => "of failing or not",
         _ => "of the reserve, the least of tilt and height margin, as too few runs fail or do not",
     };
-    let pair = deciding.pair.as_ref().map_or_else(String::new, |([a, b], share)| {
-        format!(" {a} and {b} together: {share:.2}.")
-    });
+    let pair = deciding
+        .pair
+        .as_ref()
+        .map_or_else(String::new, |([a, b], share)| format!(" {a} and {b} together: {share:.2}."));
     let noise = deciding.noise;
     Some(format!(
         "Shares of the variance {of}, each parameter alone; {noise:.3} may be chance.{pair} What is missing to 1 is \

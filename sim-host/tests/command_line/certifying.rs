@@ -49,12 +49,17 @@ fn a_certificate_is_one_json_document_and_a_page() {
     assert!((high - 0.586_481_4).abs() < 1e-6, "{high}");
     let all = folder.join("all");
     let page = std::fs::read_to_string(all.join("report.html")).expect("a page");
-    assert!(page.contains("short fails in none of 6 runs: in at most 59 % of all, with 99 % confidence."));
+    assert!(
+        page.contains(
+            "short fails in none of 6 runs: in at most 59 % of all, with 99 % confidence."
+        )
+    );
     for file in document["files"].as_array().expect("files") {
         assert!(folder.join(file.as_str().expect("a path")).is_file(), "{file}");
     }
     // Again on two processors, and in three shards that are put together: the same table and certificate.
-    let table = |name: &str| std::fs::read_to_string(folder.join(name).join("runs.csv")).expect("a table");
+    let table =
+        |name: &str| std::fs::read_to_string(folder.join(name).join("runs.csv")).expect("a table");
     assert_eq!(certify(&folder, "--out two --workers 2").0, Some(0));
     assert_eq!(table("two"), table("all"));
     for shard in ["1/3", "2/3", "3/3"] {

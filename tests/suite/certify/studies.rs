@@ -131,7 +131,10 @@ fn broken_off_and_cut_up_it_is_the_same_table() {
     let (_, merged, together) = merge(&shards).expect("all shards");
     assert_eq!((merged.shard, &together), (Shard::WHOLE, &all));
     let missing = merge(&shards[..1]).map(|_| ()).expect_err("a shard is missing");
-    assert!(missing.contains("2 of 5 samples are in none of the folders, the first is 1"), "{missing}");
+    assert!(
+        missing.contains("2 of 5 samples are in none of the folders, the first is 1"),
+        "{missing}"
+    );
     let path = shards[0].join("runs.csv");
     let text = std::fs::read_to_string(&path).expect("there");
     std::fs::write(&path, text.replace(&all[&2].bits, "0123456789abcdef")).expect("written");

@@ -65,7 +65,8 @@ enum Stage {
 impl Options {
     fn wants(&self, stage: Stage) -> bool {
         let on_target = [Stage::Target, Stage::PanicFree, Stage::Firmware, Stage::Budget];
-        let is_default = self.only.is_empty() && ![Stage::Documented, Stage::Clusters].contains(&stage);
+        let is_default =
+            self.only.is_empty() && ![Stage::Documented, Stage::Clusters].contains(&stage);
         let is_left_out = self.skip_target && on_target.contains(&stage);
         (is_default || self.only.contains(&stage)) && !is_left_out
     }

@@ -74,7 +74,10 @@ fn package() -> Result<PathBuf> {
         .iter()
         .find(|path| path.file_name().is_some_and(|name| name == "libpython_module.so"))
         .context("cargo has built no module for Python")?;
-    let (from, to) = (workspace::root().join("python/surefoot"), workspace::root().join("target/python-package"));
+    let (from, to) = (
+        workspace::root().join("python/surefoot"),
+        workspace::root().join("target/python-package"),
+    );
     let package = to.join("surefoot");
     std::fs::create_dir_all(&package).with_context(|| format!("{}", package.display()))?;
     for entry in std::fs::read_dir(&from).with_context(|| format!("{}", from.display()))? {
