@@ -13,32 +13,28 @@ use crate::robot::LIMITS;
 use core::cell::UnsafeCell;
 use surefoot::balance::Supervisor;
 
-/// What one context has, once it is there.
-struct Owned<T>(UnsafeCell<Option<T>>);
+/// What one context has.
+struct Owned<T>(UnsafeCell<T>);
 
 // SAFETY: made before interrupts are on; afterwards each has one user, as below.
 unsafe impl<T> Sync for Owned<T> {}
 
 impl<T> Owned<T> {
-    const fn nothing() -> Self {
-        Self(UnsafeCell::new(None))
-    }
-
     /// # Safety
     /// By one context, with no reference from an earlier call left.
     #[expect(clippy::mut_from_ref, reason = "by the caller's promise it is the only one")]
-    unsafe fn get(&self) -> &mut Option<T> {
+    unsafe fn get(&self) -> &mut T {
         // SAFETY: by the caller.
         unsafe { &mut *self.0.get() }
     }
 }
 
 /// The tick's.
-static CONTROL: Owned<Control> = Owned::nothing();
-/// Their ends are handed out once, in `start`.
-static ORDERS: Owned<TickQueue<Order>> = Owned(UnsafeCell::new(Some(TickQueue::new())));
-static MEASUREMENTS: Owned<Measurements> = Owned(UnsafeCell::new(Some(Measurements::new())));
-static RECORDS: Owned<TickQueue<Record>> = Owned(UnsafeCell::new(Some(TickQueue::new())));
+static CONTROL: Owned<Option<Control>> = Owned(UnsafeCell::new(None));
+/// Their ends are handed out once, in `connect`.
+static ORDERS: Owned<TickQueue<Order>> = Owned(UnsafeCell::new(TickQueue::new()));
+static MEASUREMENTS: Owned<Measurements> = Owned(UnsafeCell::new(Measurements::new()));
+static RECORDS: Owned<TickQueue<Record>> = Owned(UnsafeCell::new(TickQueue::new()));
 
 /// One tick, of the exception or interrupt that is the tick's.
 #[inline(always)]
@@ -64,6 +60,18 @@ fn main() -> ! {
 }
 
 fn start(board: Board) -> ! {
+    let mut application = connect(board);
+    // SAFETY: everything that the tick's handler needs is there.
+    #[cfg(target_arch = "riscv32")]
+    unsafe {
+        riscv::interrupt::enable();
+    }
+    application.run()
+}
+
+/// Makes both ends. Apart, so that idle does not have its stack.
+#[inline(never)]
+fn connect(board: Board) -> Application {
     let Board { timer, counter, motors, watchdog, link, clock } = board;
     let supervisor = match Supervisor::new(LIMITS, PERIOD) {
         Ok(supervisor) => supervisor,
@@ -74,8 +82,8 @@ fn start(board: Board) -> ! {
         }
     };
     // SAFETY: here alone, and once.
-    let queues = unsafe { (ORDERS.get(), MEASUREMENTS.get(), RECORDS.get()) };
-    let (Some(orders), Some(measurements), Some(records)) = queues else { crate::board::exit() };
+    let (orders, measurements, records) =
+        unsafe { (ORDERS.get(), MEASUREMENTS.get(), RECORDS.get()) };
     let (orders_in, orders_out) = orders.split();
     let (measurements_in, measurements_out) = measurements.split();
     let (records_in, records_out) = records.split();
@@ -91,12 +99,5 @@ fn start(board: Board) -> ! {
     );
     // SAFETY: no tick has run yet.
     unsafe { *CONTROL.get() = Some(control) };
-    // SAFETY: everything that the tick's handler needs is there.
-    #[cfg(target_arch = "riscv32")]
-    unsafe {
-        riscv::interrupt::enable();
-    }
-    let mut application =
-        Application::new(link, counter, clock, orders_in, measurements_in, records_out);
-    application.run()
+    Application::new(link, counter, clock, orders_in, measurements_in, records_out)
 }

@@ -11,7 +11,7 @@ use cortex_m::peripheral::syst::SystClkSource;
 
 /// Counts of SysTick in 1000 instructions.
 const COUNTS: u64 = NANOSECONDS * SYSTICK_HZ / 1_000_000;
-const _: () = assert!(COUNTS > 2000 && NANOSECONDS * SYSTICK_HZ % 1_000_000 == 0);
+const _: () = assert!(COUNTS > 2000 && (NANOSECONDS * SYSTICK_HZ).is_multiple_of(1_000_000));
 /// SysTick counts down from here, and over: from its largest, or over one period.
 static RELOAD: AtomicU32 = AtomicU32::new(0x00ff_ffff);
 
