@@ -102,7 +102,7 @@ fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     for (k, node) in tree.nodes.iter().enumerate() {
         if node.limb > 0 {
             along_limb!(T, k, node, first_pass(&input, &mut states));
-        } else if !matches!(node.kind, JointKind::Revolute(_)) {
+        } else if node.hinge().is_none() {
             let omega = match input.floating(node) {
                 Some((_, omega)) => omega,
                 None => input.terms(k, node, &states).omega,
@@ -113,7 +113,7 @@ fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize>(
         }
     }
     for (k, (node, state)) in tree.nodes.iter().zip(&states).enumerate() {
-        if (node.is_branch || !matches!(node.kind, JointKind::Revolute(_)))
+        if (node.is_branch || node.hinge().is_none())
             && let Some(body) = bodies.get_mut(k)
         {
             *body = (node.inertia.into(), input.own_wrench(k, node, state.omega.into()));
@@ -136,7 +136,7 @@ fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     for (k, node) in tree.nodes.iter().enumerate() {
         if node.limb > 0 {
             along_limb!(T, k, node, last_pass(&input, &mut states, &mut result));
-        } else if !matches!(node.kind, JointKind::Revolute(_)) {
+        } else if node.hinge().is_none() {
             let acceleration = if let JointKind::Floating = node.kind {
                 input
                     .accelerate_floating(k, node, &bodies, &mut result)

@@ -3,10 +3,11 @@
 use super::DynamicsFault;
 use super::forward_dynamics::Input;
 use super::joint_motion::own_one;
-use super::lanes::{Lanes, V, cross, dot, plus, turned, vector};
+use super::lanes::{Lanes, V, cross, dot, for_each_lane, plus, vector};
 use super::limb_inertia::{Articulated, Hinge, LimbInertia, Projection, across_turn, projection};
+use super::limbs::{Nodes, at, axis, home, joint, lane, outboard};
 use crate::Real;
-use crate::model::{Axis, InertiaShape, JointKind, Node};
+use crate::model::{Axis, InertiaShape};
 use crate::spatial::{ArticulatedInertia, SymmetricMatrix3, Twist, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
@@ -46,60 +47,6 @@ impl<T: Real> LimbState<T> {
     }
 }
 
-/// Each lane of three components.
-#[inline(always)]
-fn lane<L: Lanes>(v: &V<L>, i: usize) -> V<L::Scalar> {
-    v.map(|x| x.lane(i))
-}
-
-/// Joint `i` of a limb.
-#[inline(always)]
-fn joint<L: Lanes>(start: L::Each<usize>, i: usize) -> L::Each<usize> {
-    // Cannot fail.
-    L::each(start, |k| Some(k + i)).unwrap_or(start)
-}
-
-type Nodes<'a, L> = <L as Lanes>::Each<&'a Node<<L as Lanes>::Scalar>>;
-
-/// Constants, state and turn of a joint.
-#[inline(always)]
-fn at<'a, L: Lanes, const N: usize, const NQ: usize, const NV: usize>(
-    input: &Input<'a, L::Scalar, N, NQ, NV>,
-    joint: L::Each<usize>,
-) -> Option<(Nodes<'a, L>, (L, L))> {
-    let nodes = L::each(joint, |k| input.tree.nodes.get(k))?;
-    let turns = L::each(joint, |k| input.joint_poses.turns.get(k))?;
-    Some((nodes, (L::gather(turns, |t| t.cosine), L::gather(turns, |t| t.sine))))
-}
-
-/// The axis that a limb's joint has in every lane.
-#[inline(always)]
-fn axis<T>(node: &Node<T>) -> Axis {
-    match node.kind {
-        JointKind::Revolute(axis) => axis,
-        _ => Axis::X,
-    }
-}
-
-/// `Rᵀ v` of a joint about axis `I`.
-#[inline(always)]
-fn outboard<L: Lanes, const I: usize>(nodes: Nodes<L>, (c, s): (L, L), v: &V<L>) -> V<L> {
-    match home::<L>(nodes) {
-        None => turned::<L, I>((c, -s), v),
-        Some(rows) => {
-            let back = [0, 1, 2].map(|i| rows[0][i] * v[0] + rows[1][i] * v[1] + rows[2][i] * v[2]);
-            turned::<L, I>((c, -s), &back)
-        }
-    }
-}
-
-/// Rows of the home rotation, where there is one.
-#[inline(always)]
-fn home<L: Lanes>(nodes: Nodes<L>) -> Option<[V<L>; 3]> {
-    let matrices = L::each(nodes, |node| node.home_rotation.as_ref())?;
-    Some([0, 1, 2].map(|i| [0, 1, 2].map(|j| L::gather(matrices, |m| m.data.0[j % 3][i % 3]))))
-}
-
 /// Outboard along a limb: angular velocities and what they do to accelerations.
 #[inline(always)]
 pub(super) fn first_pass<L: Lanes, const N: usize, const NQ: usize, const NV: usize>(
@@ -108,7 +55,7 @@ pub(super) fn first_pass<L: Lanes, const N: usize, const NQ: usize, const NV: us
     start: L::Each<usize>,
     count: usize,
 ) -> Option<()> {
-    let (nodes, _) = at::<L, N, NQ, NV>(input, start)?;
+    let (nodes, _) = at::<L, N, NQ, NV>(input.tree, input.joint_poses, start)?;
     let zero = [nalgebra::zero(); 3];
     let from = L::each(nodes, |node| {
         Some(node.inboard.and_then(|i| states.get(i)).map_or(zero, |state| state.omega))
@@ -116,7 +63,7 @@ pub(super) fn first_pass<L: Lanes, const N: usize, const NQ: usize, const NV: us
     let mut omega = [0, 1, 2].map(|i| L::gather(from, |omega| omega[i % 3]));
     for i in 0..count {
         let here = joint::<L>(start, i);
-        let (nodes, turn) = at::<L, N, NQ, NV>(input, here)?;
+        let (nodes, turn) = at::<L, N, NQ, NV>(input.tree, input.joint_poses, here)?;
         let beta = L::gather(nodes, |node| own_one(node, input.velocities));
         let (next, linear) = match axis(L::first(nodes)) {
             Axis::X => turn_out::<L, 0>(nodes, turn, &omega, beta),
@@ -124,7 +71,7 @@ pub(super) fn first_pass<L: Lanes, const N: usize, const NQ: usize, const NV: us
             Axis::Z => turn_out::<L, 2>(nodes, turn, &omega, beta),
         };
         omega = next;
-        L::for_each(here, |i, k| {
+        for_each_lane!(L, here, |i, k| {
             if let Some(state) = states.get_mut(k) {
                 (state.omega, state.linear) = (lane(&omega, i), lane(&linear, i));
             }
@@ -163,19 +110,21 @@ pub(super) fn inboard_pass<L: Lanes, const N: usize, const NQ: usize, const NV: 
     count: usize,
 ) -> Result<(), DynamicsFault> {
     let none = DynamicsFault::SingularInertia { joint: N };
-    let mut carried: Option<Articulated<L>> = None;
+    // Changed in place: to copy what was just written number by number would wait for it.
+    let mut body = Articulated::<L>::zero();
     for i in (0..count).rev() {
         let here = joint::<L>(start, i);
-        let (nodes, turn) = at::<L, N, NQ, NV>(input, here).ok_or(none)?;
+        let (nodes, turn) = at::<L, N, NQ, NV>(input.tree, input.joint_poses, here).ok_or(none)?;
         let state = L::each(here, |k| states.get(k)).ok_or(none)?;
         let omega = [0, 1, 2].map(|i| L::gather(state, |state| state.omega[i % 3]));
         let linear_product = [0, 1, 2].map(|i| L::gather(state, |state| state.linear[i % 3]));
         let first = L::first(nodes);
-        let of = match carried {
+        if first.is_branch {
             // What hangs from here is there already.
-            None if first.is_branch => gathered::<L>(L::each(here, |k| bodies.get(k)).ok_or(none)?),
-            _ => own::<L, N, NQ, NV>(input, here, nodes, &omega, carried.as_ref()),
-        };
+            body = gathered::<L>(L::each(here, |k| bodies.get(k)).ok_or(none)?);
+        } else {
+            add_own::<L, N, NQ, NV>(input, here, nodes, &omega, &mut body);
+        }
         let beta = L::gather(nodes, |node| own_one(node, input.velocities));
         let torque = L::gather(nodes, |node| own_one(node, input.torques));
         let mut hinge = Hinge {
@@ -188,13 +137,13 @@ pub(super) fn inboard_pass<L: Lanes, const N: usize, const NQ: usize, const NV: 
             linear_product,
         };
         let has_inboard = first.inboard.is_some();
-        let (next, projection, d) = match axis(first) {
-            Axis::X => turn_in::<L, 0>(&of, &mut hinge, &omega, has_inboard),
-            Axis::Y => turn_in::<L, 1>(&of, &mut hinge, &omega, has_inboard),
-            Axis::Z => turn_in::<L, 2>(&of, &mut hinge, &omega, has_inboard),
+        let (projection, d) = match axis(first) {
+            Axis::X => turn_in::<L, 0>(&mut body, &mut hinge, &omega, has_inboard),
+            Axis::Y => turn_in::<L, 1>(&mut body, &mut hinge, &omega, has_inboard),
+            Axis::Z => turn_in::<L, 2>(&mut body, &mut hinge, &omega, has_inboard),
         };
         let mut fault = Ok(());
-        L::for_each(here, |i, k| {
+        for_each_lane!(L, here, |i, k| {
             if !(d.lane(i) > nalgebra::zero()) {
                 fault = Err(DynamicsFault::SingularInertia { joint: k });
             }
@@ -205,75 +154,62 @@ pub(super) fn inboard_pass<L: Lanes, const N: usize, const NQ: usize, const NV: 
             }
         });
         fault?;
-        carried = Some(next);
     }
-    let (nodes, _) = at::<L, N, NQ, NV>(input, start).ok_or(none)?;
-    if let (Some(total), true) = (carried, L::first(nodes).inboard.is_some()) {
-        L::for_each(nodes, |i, node| {
-            if let Some(body) = node.inboard.and_then(|inboard| bodies.get_mut(inboard)) {
-                let (p, z) = scattered(&total, i);
-                *body = (body.0 + p, body.1 + z);
-            }
-        });
-    }
+    let (nodes, _) = at::<L, N, NQ, NV>(input.tree, input.joint_poses, start).ok_or(none)?;
+    for_each_lane!(L, nodes, |i, node| {
+        if let Some(inboard) = node.inboard.and_then(|inboard| bodies.get_mut(inboard)) {
+            let (p, z) = scattered(&body, i);
+            *inboard = (inboard.0 + p, inboard.1 + z);
+        }
+    });
     Ok(())
 }
 
 #[inline(always)]
 fn turn_in<L: Lanes, const I: usize>(
-    of: &Articulated<L>,
+    body: &mut Articulated<L>,
     hinge: &mut Hinge<L>,
     omega: &V<L>,
     has_inboard: bool,
-) -> (Articulated<L>, Projection<L>, L) {
+) -> (Projection<L>, L) {
     let (j, k) = ((I + 1) % 3, (I + 2) % 3);
     let [beta, _] = hinge.product;
     hinge.product = [omega[k] * beta, -(omega[j] * beta)];
-    let (projection, d) = projection::<L, I>(of, hinge.torque, hinge.rotor);
+    let (projection, d) = projection::<L, I>(body, hinge.torque, hinge.rotor);
     // Nothing is passed on from the first joint of a fixed base.
-    let next = if has_inboard { across_turn::<L, I>(of, hinge, &projection) } else { *of };
-    (next, projection, d)
+    if has_inboard {
+        across_turn::<L, I>(body, hinge, &projection);
+    }
+    (projection, d)
 }
 
-/// A link's inertia and wrench with those of what hangs from it.
+/// Adds a link's inertia and wrench to those of what hangs from it.
 #[inline(always)]
-fn own<L: Lanes, const N: usize, const NQ: usize, const NV: usize>(
+fn add_own<L: Lanes, const N: usize, const NQ: usize, const NV: usize>(
     input: &Input<L::Scalar, N, NQ, NV>,
     here: L::Each<usize>,
     nodes: Nodes<L>,
     omega: &V<L>,
-    carried: Option<&Articulated<L>>,
-) -> Articulated<L> {
-    let zero = L::splat(nalgebra::zero());
-    let none = [zero; 3];
+    Articulated { inertia, bias }: &mut Articulated<L>,
+) {
     let first = L::first(nodes);
     let diagonal = vector::<L, _>(nodes, |node| node.inertia.rotational.diagonal);
-    let products = || vector::<L, _>(nodes, |node| node.inertia.rotational.off_diagonal);
-    let has_products = first.shape == InertiaShape::Full;
-
-    let mut bias = carried.map_or([none; 2], |carried| carried.bias);
-    if first.shape != InertiaShape::Isotropic {
-        let [x, y, z] = *omega;
-        let mut momentum = [diagonal[0] * x, diagonal[1] * y, diagonal[2] * z];
-        if has_products {
-            let o = products();
-            momentum = [
-                diagonal[0] * x + o[2] * y + o[1] * z,
-                o[2] * x + diagonal[1] * y + o[0] * z,
-                o[1] * x + o[0] * y + diagonal[2] * z,
-            ];
-        }
-        bias[1] = plus(&cross(omega, &momentum), &bias[1]);
-    }
-    let mut inertia = carried.map_or(
-        LimbInertia { linear: [none; 2], coupling: [none; 3], angular: [none; 2] },
-        |carried| carried.inertia,
-    );
     let mass = L::gather(nodes, |node| node.inertia.mass);
     inertia.linear[0] = inertia.linear[0].map(|x| mass + x);
     inertia.angular[0] = plus(&diagonal, &inertia.angular[0]);
-    if has_products {
-        inertia.angular[1] = plus(&products(), &inertia.angular[1]);
+    let [x, y, z] = *omega;
+    let mut momentum = [diagonal[0] * x, diagonal[1] * y, diagonal[2] * z];
+    if first.shape == InertiaShape::Full {
+        let o = vector::<L, _>(nodes, |node| node.inertia.rotational.off_diagonal);
+        momentum = [
+            diagonal[0] * x + o[2] * y + o[1] * z,
+            o[2] * x + diagonal[1] * y + o[0] * z,
+            o[1] * x + o[0] * y + diagonal[2] * z,
+        ];
+        inertia.angular[1] = plus(&o, &inertia.angular[1]);
+    }
+    if first.shape != InertiaShape::Isotropic {
+        bias[1] = plus(&cross(omega, &momentum), &bias[1]);
     }
     if first.is_eccentric {
         let h = vector::<L, _>(nodes, |node| node.inertia.first_moment);
@@ -302,7 +238,6 @@ fn own<L: Lanes, const N: usize, const NQ: usize, const NV: usize>(
             }
         }
     }
-    Articulated { inertia, bias }
 }
 
 /// Lanes of what is kept for single bodies.
@@ -357,7 +292,7 @@ pub(super) fn last_pass<L: Lanes, const N: usize, const NQ: usize, const NV: usi
     start: L::Each<usize>,
     count: usize,
 ) -> Option<()> {
-    let (nodes, _) = at::<L, N, NQ, NV>(input, start)?;
+    let (nodes, _) = at::<L, N, NQ, NV>(input.tree, input.joint_poses, start)?;
     let base = [(-input.tree.gravity).into(), [nalgebra::zero(); 3]];
     let from = L::each(nodes, |node| {
         Some(node.inboard.and_then(|i| states.get(i)).map_or(base, |state| state.image))
@@ -366,7 +301,7 @@ pub(super) fn last_pass<L: Lanes, const N: usize, const NQ: usize, const NV: usi
     let mut acceleration = [component(0), component(1)];
     for i in 0..count {
         let here = joint::<L>(start, i);
-        let (nodes, turn) = at::<L, N, NQ, NV>(input, here)?;
+        let (nodes, turn) = at::<L, N, NQ, NV>(input.tree, input.joint_poses, here)?;
         let state = L::each(here, |k| states.get(k))?;
         let beta = L::gather(nodes, |node| own_one(node, input.velocities));
         let (next, beta_dot) = match axis(L::first(nodes)) {
@@ -375,13 +310,13 @@ pub(super) fn last_pass<L: Lanes, const N: usize, const NQ: usize, const NV: usi
             Axis::Z => turn_last::<L, 2>(nodes, turn, state, &acceleration, beta),
         };
         acceleration = next;
-        L::for_each(nodes, |i, node| {
+        for_each_lane!(L, nodes, |i, node| {
             if let Some(entry) = result.get_mut(node.velocity_start) {
                 *entry = beta_dot.lane(i);
             }
         });
     }
-    L::for_each(joint::<L>(start, count.saturating_sub(1)), |i, k| {
+    for_each_lane!(L, joint::<L>(start, count.saturating_sub(1)), |i, k| {
         if let Some(state) = states.get_mut(k) {
             state.image = acceleration.map(|v| lane(&v, i));
         }

@@ -15,24 +15,15 @@
 
 use super::JointPoses;
 use super::forward_kinematics::inboard;
+use super::inverse_limbs::{FrameMotion, inboard_pass, outboard_pass};
 use super::joint_motion::{JointMotion, own, own_one};
 use super::joint_poses::JointPose;
+use super::lanes::{Lanes, along_limb};
 use super::reversed::reversed;
 use crate::Real;
 use crate::model::{Axis, JointKind, Node, Tree};
 use crate::spatial::{Twist, Wrench};
 use nalgebra::{Matrix3, Vector3};
-
-/// Angular velocity and accelerations of a joint frame.
-#[derive(Clone, Copy)]
-struct Motion<T> {
-    omega: Vector3<T>,
-    omega_dot: Vector3<T>,
-    /// Less gravity.
-    a: Vector3<T>,
-    /// (1)
-    k: Matrix3<T>,
-}
 
 /// The torques `τ` that give the tree the joint accelerations `accelerations` at `velocities`, under
 /// gravity and `external` wrenches (each at its body's centre of mass, in its body frame). A floating
@@ -77,7 +68,24 @@ fn with_rotors<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     reversed(tree, &torques)
 }
 
-#[inline]
+/// What every pass reads.
+pub(super) struct Input<'a, T, const N: usize, const NQ: usize, const NV: usize> {
+    pub tree: &'a Tree<T, N, NQ, NV>,
+    pub joint_poses: &'a JointPoses<T, N, NQ>,
+    pub velocities: &'a [T; NV],
+    pub accelerations: &'a [T; NV],
+}
+
+impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Input<'_, T, N, NQ, NV> {
+    /// The motion of the inertial frame.
+    #[inline(always)]
+    pub fn base(&self) -> FrameMotion<T> {
+        let still = [T::zero(); 3];
+        FrameMotion { omega: still, omega_dot: still, a: (-self.tree.gravity).into() }
+    }
+}
+
+#[inline(never)]
 fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     tree: &Tree<T, N, NQ, NV>,
     joint_poses: &JointPoses<T, N, NQ>,
@@ -85,20 +93,24 @@ fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     accelerations: &[T; NV],
     external: Option<&[Wrench<T>; N]>,
 ) -> [T; NV] {
-    let base = Motion {
-        omega: Vector3::zeros(),
-        omega_dot: Vector3::zeros(),
-        a: -tree.gravity,
-        k: Matrix3::zeros(),
-    };
-    let mut motions = [base; N];
+    let input = Input { tree, joint_poses, velocities, accelerations };
+    let mut motions = [input.base(); N];
     let mut wrenches = [Wrench::zero(); N];
 
-    for (k, node, pose) in joint_poses.joints(&tree.nodes) {
-        let from = inboard(node, &motions).unwrap_or(&base);
-        let motion = step(node, &pose, from, &joint_poses.positions, velocities, accelerations);
-        wrenches[k] = inertial_wrench(node, &motion);
-        motions[k] = motion;
+    for (k, node) in tree.nodes.iter().enumerate() {
+        if node.limb > 0 {
+            along_limb!(T, k, node, outboard_pass(&input, &mut motions, &mut wrenches));
+        } else if let (None, Some(pose)) = (node.hinge(), joint_poses.pose(k, node)) {
+            let motion = step(&input, node, &pose, &motions);
+            if let (Some(wrench), Some(kept)) = (wrenches.get_mut(k), motions.get_mut(k)) {
+                *wrench = inertial_wrench(node, &motion);
+                *kept = FrameMotion {
+                    omega: motion.omega.into(),
+                    omega_dot: motion.omega_dot.into(),
+                    a: motion.a.into(),
+                };
+            }
+        }
     }
     if let Some(external) = external {
         for ((wrench, node), applied) in wrenches.iter_mut().zip(&tree.nodes).zip(external) {
@@ -107,11 +119,16 @@ fn recursion<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     }
 
     let mut torques = [T::zero(); NV];
-    for (k, node, pose) in joint_poses.joints(&tree.nodes).rev() {
-        let wrench = wrenches[k];
-        project(node, &wrench, &joint_poses.positions, velocities, &mut torques);
-        if let Some(inboard) = node.inboard.and_then(|i| wrenches.get_mut(i)) {
-            *inboard += carried(&pose, &wrench);
+    for (k, node) in tree.nodes.iter().enumerate().rev() {
+        if node.limb > 0 {
+            along_limb!(T, k, node, inboard_pass(&input, &mut wrenches, &mut torques));
+        } else if let (None, Some(wrench)) = (node.hinge(), wrenches.get(k).copied()) {
+            project(node, &wrench, &joint_poses.positions, velocities, &mut torques);
+            if let Some(inboard) = node.inboard.and_then(|i| wrenches.get_mut(i))
+                && let Some(pose) = joint_poses.pose(k, node)
+            {
+                *inboard += carried(&pose, &wrench);
+            }
         }
     }
     torques
@@ -129,44 +146,43 @@ pub fn bias_forces<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     inverse_dynamics(tree, joint_poses, velocities, &[T::zero(); NV], external)
 }
 
-/// Outboard step of `ω`, `ω̇`, `a` and `K` across one joint.
-#[inline(always)]
-fn step<T: Real, const NQ: usize, const NV: usize>(
+/// Motion of a joint frame, with `K`.
+#[derive(Clone, Copy)]
+struct Motion<T> {
+    omega: Vector3<T>,
+    omega_dot: Vector3<T>,
+    a: Vector3<T>,
+    k: Matrix3<T>,
+}
+
+/// Outboard step of `ω`, `ω̇`, `a` and `K` across a joint that is not revolute.
+#[inline(never)]
+fn step<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    input: &Input<T, N, NQ, NV>,
     node: &Node<T>,
     pose: &JointPose<T>,
-    from: &Motion<T>,
-    positions: &[T; NQ],
-    velocities: &[T; NV],
-    accelerations: &[T; NV],
+    motions: &[FrameMotion<T>; N],
 ) -> Motion<T> {
+    let from = inboard(node, motions).copied().unwrap_or(input.base());
+    let [from_omega, from_omega_dot, from_a] =
+        [from.omega, from.omega_dot, from.a].map(Vector3::from);
     let transported_a = if pose.is_translated && node.inboard.is_some() {
-        from.a + from.k * pose.translation
+        from_a + point_acceleration(from_omega, from_omega_dot) * pose.translation
     } else {
-        from.a
+        from_a
     };
-    let mut omega = pose.rotation.outboard(from.omega);
-    let mut omega_dot = pose.rotation.outboard(from.omega_dot);
+    let mut omega = pose.rotation.outboard(from_omega);
+    let mut omega_dot = pose.rotation.outboard(from_omega_dot);
     let mut a = pose.rotation.outboard(transported_a);
-    match &node.kind {
-        JointKind::Fixed => {}
-        JointKind::Revolute(axis) => {
-            let beta = own_one(node, velocities);
-            let beta_dot = own_one(node, accelerations);
-            match axis {
-                Axis::X => turn::<T, 0>(&mut omega, &mut omega_dot, beta, beta_dot),
-                Axis::Y => turn::<T, 1>(&mut omega, &mut omega_dot, beta, beta_dot),
-                Axis::Z => turn::<T, 2>(&mut omega, &mut omega_dot, beta, beta_dot),
-            }
-        }
-        _ => {
-            let beta = own(node, velocities);
-            let motion = JointMotion::new(node, positions, &beta);
-            let product = motion.velocity_product(omega, &beta);
-            let change = motion.relative(&own(node, accelerations)) + product;
-            omega += motion.relative(&beta).angular;
-            omega_dot += change.angular;
-            a += change.linear;
-        }
+    if !matches!(node.kind, JointKind::Fixed) {
+        let positions = &input.joint_poses.positions;
+        let beta = own(node, input.velocities);
+        let motion = JointMotion::new(node, positions, &beta);
+        let product = motion.velocity_product(omega, &beta);
+        let change = motion.relative(&own(node, input.accelerations)) + product;
+        omega += motion.relative(&beta).angular;
+        omega_dot += change.angular;
+        a += change.linear;
     }
     Motion { omega, omega_dot, a, k: point_acceleration(omega, omega_dot) }
 }
@@ -229,22 +245,16 @@ fn project<T: Real, const NQ: usize, const NV: usize>(
     velocities: &[T; NV],
     torques: &mut [T; NV],
 ) {
-    let mut own_torques = torques.iter_mut().skip(node.velocity_start);
-    let one = match &node.kind {
-        JointKind::Fixed => return,
-        JointKind::Revolute(Axis::X) => wrench.torque.x,
-        JointKind::Revolute(Axis::Y) => wrench.torque.y,
-        JointKind::Revolute(Axis::Z) => wrench.torque.z,
-        _ => {
-            let motion = JointMotion::new(node, positions, &own(node, velocities));
-            for (torque, h) in own_torques.zip(motion.map).take(motion.degrees_of_freedom) {
-                *torque = h.power(*wrench);
-            }
-            return;
+    let own_torques = torques.iter_mut().skip(node.velocity_start);
+    if let JointKind::Floating = node.kind {
+        for (torque, value) in own_torques.zip(wrench.to_array()) {
+            *torque = value;
         }
-    };
-    if let Some(torque) = own_torques.next() {
-        *torque = one;
+        return;
+    }
+    let motion = JointMotion::new(node, positions, &own(node, velocities));
+    for (torque, h) in own_torques.zip(motion.map).take(motion.degrees_of_freedom) {
+        *torque = h.power(*wrench);
     }
 }
 

@@ -68,6 +68,9 @@ pub fn joint_poses<T: Real, const N: usize, const NQ: usize, const NV: usize>(
     Ok(poses)
 }
 
+/// How many angles go together.
+const BLOCK: usize = if cfg!(any(target_arch = "x86_64", target_arch = "aarch64")) { 8 } else { 1 };
+
 /// Sines and cosines of all revolute joints. Those of the others are of an angle of zero: one loop
 /// without branches over all is what processors with wide registers do fastest.
 #[inline]
@@ -83,9 +86,19 @@ fn turns<T: Real, const N: usize, const NQ: usize, const NV: usize>(
         }
     }
     if angles.iter().fold(true, |all, angle| all & angle.is_near()) {
-        for (turn, angle) in turns.iter_mut().zip(angles) {
-            let (sine, cosine) = angle.near_sine_cosine();
-            *turn = AxisTurn { cosine, sine };
+        // Blocks of one length, the last one filled up, so that the compiler knows how many there are.
+        for (turns, angles) in turns.chunks_mut(BLOCK).zip(angles.chunks(BLOCK)) {
+            let mut block = [T::zero(); BLOCK];
+            for (to, angle) in block.iter_mut().zip(angles) {
+                *to = *angle;
+            }
+            let mut sines = [T::zero(); BLOCK];
+            for (sine, angle) in sines.iter_mut().zip(&mut block) {
+                (*sine, *angle) = angle.near_sine_cosine();
+            }
+            for ((turn, sine), cosine) in turns.iter_mut().zip(sines).zip(block) {
+                *turn = AxisTurn { cosine, sine };
+            }
         }
     } else {
         for (turn, angle) in turns.iter_mut().zip(angles) {
@@ -108,6 +121,12 @@ fn normalize<T: Real, const NQ: usize>(positions: &mut [T; NQ], start: usize) ->
 }
 
 impl<T: Real, const N: usize, const NQ: usize> JointPoses<T, N, NQ> {
+    /// The relative pose of joint `k`.
+    #[inline(always)]
+    pub(super) fn pose(&self, k: usize, node: &Node<T>) -> Option<JointPose<T>> {
+        self.turns.get(k).map(|turn| relative(node, *turn, &self.positions))
+    }
+
     /// The joints of a tree with their relative poses, inboard ones first.
     #[inline(always)]
     pub(super) fn joints<'a>(

@@ -37,8 +37,8 @@ pub trait Lanes:
     ) -> Option<Self::Each<B>>;
     /// What is known to be the same in every lane.
     fn first<A: Copy>(each: Self::Each<A>) -> A;
-    /// Calls `f` with each lane's number and `A`, the last lane first.
-    fn for_each<A: Copy>(each: Self::Each<A>, f: impl FnMut(usize, A));
+    /// That of the last lane.
+    fn last<A: Copy>(each: Self::Each<A>) -> A;
 }
 
 impl<T: Real> Lanes for T {
@@ -74,8 +74,8 @@ impl<T: Real> Lanes for T {
         each
     }
     #[inline(always)]
-    fn for_each<A: Copy>(each: A, mut f: impl FnMut(usize, A)) {
-        f(0, each);
+    fn last<A: Copy>(each: A) -> A {
+        each
     }
 }
 
@@ -154,9 +154,8 @@ macro_rules! pair {
                 a
             }
             #[inline(always)]
-            fn for_each<A: Copy>([a, b]: [A; 2], mut f: impl FnMut(usize, A)) {
-                f(1, b);
-                f(0, a);
+            fn last<A: Copy>([_, b]: [A; 2]) -> A {
+                b
             }
         }
     };
@@ -225,3 +224,18 @@ macro_rules! along_limb {
     }};
 }
 pub(super) use along_limb;
+
+/// Does `$body` with each lane's number and what `$each` has for it, the last lane first. No function, so
+/// that each lane's number is a constant where its numbers are taken out of registers.
+macro_rules! for_each_lane {
+    ($lanes:ident, $each:expr, |$i:ident, $k:ident| $body:block) => {{
+        let each = $each;
+        if $lanes::COUNT == 2 {
+            let ($i, $k) = (1, $lanes::last(each));
+            $body
+        }
+        let ($i, $k) = (0, $lanes::first(each));
+        $body
+    }};
+}
+pub(super) use for_each_lane;

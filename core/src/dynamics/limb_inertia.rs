@@ -51,6 +51,16 @@ pub(super) struct Hinge<L> {
     pub linear_product: V<L>,
 }
 
+impl<L: Lanes> Articulated<L> {
+    /// Nothing.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        let none = [L::splat(nalgebra::zero()); 3];
+        let inertia = LimbInertia { linear: [none; 2], coupling: [none; 3], angular: [none; 2] };
+        Self { inertia, bias: [none; 2] }
+    }
+}
+
 impl<L: Lanes> LimbInertia<L> {
     /// Entry `(row, column)` of a symmetric block.
     #[inline(always)]
@@ -83,10 +93,10 @@ pub(super) fn projection<L: Lanes, const I: usize>(
 /// `Aᵀ (P − U D⁻¹ Uᵀ) A` and `Aᵀ (z + (P − U D⁻¹ Uᵀ) c + U D⁻¹ u)`: across a turn about axis `I`.
 #[inline(always)]
 pub(super) fn across_turn<L: Lanes, const I: usize>(
-    of: &Articulated<L>,
+    of: &mut Articulated<L>,
     hinge: &Hinge<L>,
     projection: &Projection<L>,
-) -> Articulated<L> {
+) {
     let (j, k) = ((I + 1) % 3, (I + 2) % 3);
     let (p, z) = (&of.inertia, &of.bias);
     let [f, u] = &projection.image;
@@ -158,7 +168,7 @@ pub(super) fn across_turn<L: Lanes, const I: usize>(
         bias[1] = plus(&bias[1], &cross(arm, &bias[0]));
         shift(&mut inertia, arm);
     }
-    Articulated { inertia, bias }
+    *of = Articulated { inertia, bias };
 }
 
 /// `R S Rᵀ` of a turn, by its block across the axis as in [`crate::spatial::AxisTurn`].

@@ -20,11 +20,13 @@ mod forward_dynamics;
 mod forward_kinematics;
 mod forward_limbs;
 mod inverse_dynamics;
+mod inverse_limbs;
 mod joint_block;
 mod joint_motion;
 mod joint_poses;
 pub(crate) mod lanes;
 mod limb_inertia;
+mod limbs;
 mod mass_matrix;
 mod reversed;
 

@@ -64,6 +64,15 @@ pub(crate) enum InertiaShape {
 }
 
 impl<T: crate::Real> Node<T> {
+    /// The axis of a revolute joint.
+    #[inline(always)]
+    pub(crate) fn hinge(&self) -> Option<Axis> {
+        match &self.kind {
+            JointKind::Revolute(axis) => Some(*axis),
+            _ => None,
+        }
+    }
+
     /// The axis of a revolute joint whose frame is parallel to its inboard one at home: what robots
     /// are made of.
     #[inline(always)]
