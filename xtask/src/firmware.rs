@@ -174,6 +174,16 @@ pub fn build(arm: &ArmToolchain, robot: &Robot) -> Result<()> {
     Variant::ALL.into_iter().try_for_each(|variant| variant.build(arm, robot))
 }
 
+/// The robot of the text in images that estimate the state, and in ones that walk.
+pub fn variants() -> Result<[Robot; 2]> {
+    Ok([Robot::of_the_text()?.estimating(), Robot::of_the_text()?.walking()])
+}
+
+/// Builds these for the emulator.
+pub fn build_variants(arm: &ArmToolchain) -> Result<()> {
+    variants()?.iter().try_for_each(|robot| Variant::Emulation.build(arm, robot))
+}
+
 /// Builds all images, and says where they are.
 pub fn run(options: &Options) -> Result<()> {
     let robot = match &options.robot {

@@ -25,13 +25,13 @@ use nalgebra::{Matrix3, Vector3};
 
 /// Angular velocity and accelerations of a joint frame.
 #[derive(Clone, Copy)]
-struct Motion<T> {
-    omega: Vector3<T>,
-    omega_dot: Vector3<T>,
+pub(super) struct Motion<T> {
+    pub omega: Vector3<T>,
+    pub omega_dot: Vector3<T>,
     /// Less gravity.
-    a: Vector3<T>,
+    pub a: Vector3<T>,
     /// (1)
-    k: Matrix3<T>,
+    pub k: Matrix3<T>,
 }
 
 /// The torques `τ` that give the tree the joint accelerations `accelerations` at `velocities`, under
@@ -173,7 +173,7 @@ fn step<T: Real, const NQ: usize, const NV: usize>(
 
 /// Adds a turn about axis `I`: `ω + e β`, `ω̇ + e β̇ + ω × e β`.
 #[inline(always)]
-fn turn<T: Real, const I: usize>(
+pub(super) fn turn<T: Real, const I: usize>(
     omega: &mut Vector3<T>,
     omega_dot: &mut Vector3<T>,
     beta: T,
@@ -188,7 +188,7 @@ fn turn<T: Real, const I: usize>(
 
 /// `K` of (1).
 #[inline(always)]
-fn point_acceleration<T: Real>(omega: Vector3<T>, omega_dot: Vector3<T>) -> Matrix3<T> {
+pub(super) fn point_acceleration<T: Real>(omega: Vector3<T>, omega_dot: Vector3<T>) -> Matrix3<T> {
     let (w, d) = (omega, omega_dot);
     let (xx, yy, zz) = (w.x * w.x, w.y * w.y, w.z * w.z);
     let (xy, xz, yz) = (w.x * w.y, w.x * w.z, w.y * w.z);
@@ -207,7 +207,7 @@ fn point_acceleration<T: Real>(omega: Vector3<T>, omega_dot: Vector3<T>) -> Matr
 
 /// The body's own part of (2).
 #[inline(always)]
-fn inertial_wrench<T: Real>(node: &Node<T>, motion: &Motion<T>) -> Wrench<T> {
+pub(super) fn inertial_wrench<T: Real>(node: &Node<T>, motion: &Motion<T>) -> Wrench<T> {
     let inertia = &node.inertia;
     let mut wrench = Wrench {
         force: motion.a * inertia.mass,

@@ -14,21 +14,25 @@
 //! acceleration `−g` of the inertial frame. Inputs and outputs are the dissertation's.
 
 mod fault;
+mod floating;
 mod forward_dynamics;
 mod forward_kinematics;
 mod inverse_dynamics;
 mod joint_block;
+mod joint_frames;
 mod joint_motion;
 mod joint_poses;
 mod mass_matrix;
 mod reversed;
 
 pub use fault::DynamicsFault;
+pub(crate) use floating::{floating_inverse_dynamics, legged_inverse_dynamics};
 pub use forward_dynamics::forward_dynamics;
 pub(crate) use forward_dynamics::project_turn;
 pub use forward_kinematics::{
     BodyKinematics, Kinematics, body_poses, body_velocities, forward_kinematics, position_rates,
 };
 pub use inverse_dynamics::{bias_forces, inverse_dynamics};
+pub(crate) use joint_frames::joint_frames;
 pub use joint_poses::{JointPoses, joint_poses};
 pub use mass_matrix::mass_matrix;

@@ -8,6 +8,7 @@ use anyhow::{Result, ensure};
 /// Builds, measures, and compares.
 pub fn run(arm: &ArmToolchain) -> Result<String> {
     firmware::build(arm, &firmware::Robot::of_the_text()?)?;
+    firmware::build_variants(arm)?;
     let report = measure(arm)?;
     budget::print(&report);
     ensure!(report.broken().is_empty(), "over budget: {}", report.broken().join("; "));

@@ -9,7 +9,7 @@ use super::robot::{MOST_LEG_JOINTS, WholeBody};
 use super::{WholeBodyCommand, WholeBodyMemory, WholeBodySettings, WholeBodyState};
 use crate::Real;
 use crate::balance::{ContactFoot, ContactProgram, Fault, Input, Reference, desired_acceleration};
-use crate::dynamics::{forward_kinematics, inverse_dynamics, joint_poses, mass_matrix};
+use crate::dynamics::{forward_kinematics, joint_poses, legged_inverse_dynamics, mass_matrix};
 use crate::model::Tree;
 use crate::qp::{Settings, solve};
 use crate::spatial::{Twist, Wrench};
@@ -120,7 +120,7 @@ fn tick_under<T: Real, const N: usize, const NQ: usize, const NV: usize, const F
         *place = Some((contact, leg));
     }
     let legs = pressing.each_ref().map(|foot| foot.as_ref().map(|(contact, _)| *contact));
-    let mut bias = inverse_dynamics(tree, &poses, &state.velocities, &accelerations, None);
+    let mut bias = legged_inverse_dynamics(tree, &poses, &state.velocities, &accelerations);
     if let Some(external) = external {
         // Of the ground's wrenches this much is made already.
         let (force, torque) =

@@ -13,7 +13,7 @@ use super::objective::{Objective, Surroundings};
 use super::program::MotionProgram;
 use crate::Real;
 use crate::balance::{ContactLimits, Fault, Input};
-use crate::dynamics::inverse_dynamics;
+use crate::dynamics::legged_inverse_dynamics;
 use crate::qp::{Settings, solve};
 use crate::spatial::{Quaternion, Twist, Wrench};
 use nalgebra::Vector3;
@@ -53,7 +53,7 @@ pub fn whole_body_motion_tick<
     let mut accelerations = observed.accelerations;
     let mut feet = [None; FEET];
     set_feet(controller, observed, task, &mut accelerations, &mut feet)?;
-    let bias = inverse_dynamics(tree, poses, &state.velocities, &accelerations, None);
+    let bias = legged_inverse_dynamics(tree, poses, &state.velocities, &accelerations);
     if !bias.iter().all(|x| x.is_finite()) {
         return Err(Fault::Overflow);
     }
