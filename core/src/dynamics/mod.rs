@@ -29,6 +29,7 @@ pub use fault::DynamicsFault;
 pub(crate) use floating::{floating_inverse_dynamics, legged_inverse_dynamics};
 pub use forward_dynamics::forward_dynamics;
 pub(crate) use forward_dynamics::project_turn;
+pub(crate) use forward_kinematics::forward_kinematics_in;
 pub use forward_kinematics::{
     BodyKinematics, Kinematics, body_poses, body_velocities, forward_kinematics, position_rates,
 };

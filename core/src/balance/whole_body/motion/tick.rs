@@ -159,13 +159,16 @@ fn set_feet<T: Real, const N: usize, const NQ: usize, const NV: usize, const FEE
                 Asked::Move { linear: *linear, angular: *angular }
             }
         };
-        let contact = Contact::new(leg, &from, &asked, settings.damping).ok_or(Fault::Overflow)?;
+        // Made where it stays: each copy would cost as much as a joint.
+        let foot =
+            place.insert(MotionFoot { contact: Contact::empty(), limits: limits(leg, task) });
+        let contact = &mut foot.contact;
+        contact.set(leg, &from, &asked, settings.damping).ok_or(Fault::Overflow)?;
         for (joint, more) in contact.joints.iter().zip(contact.correction()).take(contact.count) {
             if let Some(to) = accelerations.get_mut(*joint) {
                 *to += more;
             }
         }
-        *place = Some(MotionFoot { contact, limits: limits(leg, task) });
     }
     Ok(())
 }
