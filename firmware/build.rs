@@ -5,16 +5,15 @@
 mod described_robot;
 
 use std::env;
-use std::fs;
 use std::path::PathBuf;
 
-/// Features, as cargo tells of them, and their memory maps from this folder; that of the reference board is the
-/// workspace's own.
-const BOARDS: [(&str, &str); 4] = [
-    ("STM32F405", "../memory.x"),
-    ("MPS2_AN500", "memory/mps2-an500.x"),
-    ("MPS2_AN505", "memory/mps2-an505.x"),
-    ("VIRT_RV32", "memory/virt-rv32.x"),
+/// Features, as cargo tells of them, and their memory beside the workspace's `memory.x`, which is the reference
+/// board's.
+const BOARDS: [(&str, Option<&str>); 4] = [
+    ("STM32F405", None),
+    ("MPS2_AN500", Some("memory/mps2-an500.x")),
+    ("MPS2_AN505", Some("memory/mps2-an505.x")),
+    ("VIRT_RV32", Some("memory/virt-rv32.x")),
 ];
 
 /// Set where the image is one of a robot that walks.
@@ -42,21 +41,17 @@ fn main() {
     if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
         return;
     }
-    // The linker looks for the name memory.x, here first.
     let feature = |name: &str| env::var_os(format!("CARGO_FEATURE_{name}")).is_some();
-    let board = BOARDS.into_iter().find(|(name, _)| feature(name));
-    let Some((_, memory)) = board else {
+    let Some((_, memory)) = BOARDS.into_iter().find(|(name, _)| feature(name)) else {
         println!("cargo::error=a board is needed: one of the features of Cargo.toml that are such");
         return;
     };
-    let memory = package.join(memory);
-    println!("cargo::rerun-if-changed={}", memory.display());
-    let out = PathBuf::from(env::var("OUT_DIR").expect("cargo sets it"));
-    fs::copy(&memory, out.join("memory.x")).expect("cargo's folder can be written");
-    println!("cargo::rustc-link-search={}", out.display());
-    if env::var("CARGO_CFG_TARGET_ARCH").as_deref() == Ok("riscv32") {
-        // cortex-m-rt's script asks for it itself.
-        println!("cargo::rustc-link-arg-bins=-Tmemory.x");
+    let workspace = package.join("..");
+    println!("cargo::rerun-if-changed={}", workspace.join("memory.x").display());
+    println!("cargo::rustc-link-search={}", workspace.display());
+    if let Some(memory) = memory.map(|memory| package.join(memory)) {
+        println!("cargo::rerun-if-changed={}", memory.display());
+        println!("cargo::rustc-link-arg-bins=-T{}", memory.display());
     }
     for argument in ["-Tlink.x", "-Tdefmt.x", "--nmagic", "--emit-relocs"] {
         println!("cargo::rustc-link-arg-bins={argument}");

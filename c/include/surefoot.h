@@ -139,6 +139,10 @@ typedef enum {
    * A motor was at its limit for too long.
    */
   SUREFOOT_STOP_SATURATED = 12,
+  /**
+   * The state's estimate is not to be believed.
+   */
+  SUREFOOT_STOP_ESTIMATE = 13,
 } surefoot_stop;
 
 /**

@@ -19,9 +19,9 @@ import numpy as np
 
 from mujoco_loop import Controller, Plant, STEP, mujoco
 
-VERSION = 4  # of the messages (link/src/frame.rs)
+VERSION = 5  # of the messages (link/src/frame.rs)
 # Numbers of the messages that are used here, in the order of link/src/message.rs.
-ARM, DISARM, SENSORS = 7, 8, 9
+ARM, DISARM, SENSORS = 9, 10, 11
 IDENTITY, ACKNOWLEDGED, TORQUES = 0, 1, 2
 LOCK_STEP_PERIOD = 0.001  # s, of a firmware that nobody has configured
 ACTIVE = 1
