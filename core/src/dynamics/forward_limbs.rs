@@ -11,6 +11,9 @@ use crate::model::{Axis, InertiaShape};
 use crate::spatial::{ArticulatedInertia, SymmetricMatrix3, Twist, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
+/// `P` and `z` of a single body.
+pub(super) type BodyBias<T> = (ArticulatedInertia<T>, Wrench<T>);
+
 /// What the passes leave for each other at a joint.
 #[derive(Clone, Copy)]
 pub(super) struct LimbState<T> {
@@ -105,7 +108,7 @@ fn turn_out<L: Lanes, const I: usize>(
 pub(super) fn inboard_pass<L: Lanes, const N: usize, const NQ: usize, const NV: usize>(
     input: &Input<L::Scalar, N, NQ, NV>,
     states: &mut [LimbState<L::Scalar>; N],
-    bodies: &mut [(ArticulatedInertia<L::Scalar>, Wrench<L::Scalar>); N],
+    bodies: &mut [BodyBias<L::Scalar>; N],
     start: L::Each<usize>,
     count: usize,
 ) -> Result<(), DynamicsFault> {
@@ -242,9 +245,7 @@ fn add_own<L: Lanes, const N: usize, const NQ: usize, const NV: usize>(
 
 /// Lanes of what is kept for single bodies.
 #[inline(always)]
-fn gathered<L: Lanes>(
-    from: L::Each<&(ArticulatedInertia<L::Scalar>, Wrench<L::Scalar>)>,
-) -> Articulated<L> {
+fn gathered<L: Lanes>(from: L::Each<&BodyBias<L::Scalar>>) -> Articulated<L> {
     Articulated {
         inertia: LimbInertia {
             linear: [
@@ -265,10 +266,7 @@ fn gathered<L: Lanes>(
 
 /// Lane `i` of what is passed to a single body.
 #[inline(always)]
-fn scattered<L: Lanes>(
-    of: &Articulated<L>,
-    i: usize,
-) -> (ArticulatedInertia<L::Scalar>, Wrench<L::Scalar>) {
+fn scattered<L: Lanes>(of: &Articulated<L>, i: usize) -> BodyBias<L::Scalar> {
     let vector = |v: &V<L>| Vector3::from(lane(v, i));
     let symmetric = |block: &[V<L>; 2]| SymmetricMatrix3 {
         diagonal: vector(&block[0]),

@@ -2,7 +2,7 @@
 //!
 //! The two legs of a robot take the same steps with other numbers. Where the processor has registers
 //! for two numbers, both go through the recursions together: what is written once over [`Lanes`] runs
-//! for one limb with a scalar, and for a limb and its twin with a [`Pair`] of scalars. Each lane sees
+//! for one limb with a scalar, and for a limb and its twin with a pair of scalars. Each lane sees
 //! the operations of a scalar in the same order, and so gives the same bits.
 
 use crate::Real;
@@ -78,92 +78,6 @@ impl<T: Real> Lanes for T {
         each
     }
 }
-
-/// Two scalars of one register.
-#[derive(Clone, Copy)]
-pub struct Pair<W>(W);
-
-/// `Pair` of `$scalar`, in the first two of the numbers of `$wide`.
-macro_rules! pair {
-    ($scalar:ty, $wide:ty, $zeros:expr) => {
-        impl Add for Pair<$wide> {
-            type Output = Self;
-            #[inline(always)]
-            fn add(self, other: Self) -> Self {
-                Self(self.0 + other.0)
-            }
-        }
-        impl Sub for Pair<$wide> {
-            type Output = Self;
-            #[inline(always)]
-            fn sub(self, other: Self) -> Self {
-                Self(self.0 - other.0)
-            }
-        }
-        impl Mul for Pair<$wide> {
-            type Output = Self;
-            #[inline(always)]
-            fn mul(self, other: Self) -> Self {
-                Self(self.0 * other.0)
-            }
-        }
-        impl Neg for Pair<$wide> {
-            type Output = Self;
-            #[inline(always)]
-            fn neg(self) -> Self {
-                Self(-self.0)
-            }
-        }
-        impl Lanes for Pair<$wide> {
-            type Scalar = $scalar;
-            type Each<A: Copy> = [A; 2];
-            const COUNT: usize = 2;
-            #[inline(always)]
-            fn two<A: Copy>(first: A, second: A) -> [A; 2] {
-                [first, second]
-            }
-            #[inline(always)]
-            fn splat(x: $scalar) -> Self {
-                Self(<$wide>::splat(x))
-            }
-            #[inline(always)]
-            fn gather<A: Copy>([a, b]: [A; 2], f: impl Fn(A) -> $scalar) -> Self {
-                let mut all = $zeros;
-                all[0] = f(a);
-                all[1] = f(b);
-                Self(<$wide>::new(all))
-            }
-            #[inline(always)]
-            fn lane(self, i: usize) -> $scalar {
-                let [a, b, ..] = self.0.to_array();
-                if i == 0 { a } else { b }
-            }
-            #[inline(always)]
-            fn reciprocal(self) -> Self {
-                Self(<$wide>::splat(1.0) / self.0)
-            }
-            #[inline(always)]
-            fn each<A: Copy, B: Copy>(
-                [a, b]: [A; 2],
-                f: impl Fn(A) -> Option<B>,
-            ) -> Option<[B; 2]> {
-                Some([f(a)?, f(b)?])
-            }
-            #[inline(always)]
-            fn first<A: Copy>([a, _]: [A; 2]) -> A {
-                a
-            }
-            #[inline(always)]
-            fn last<A: Copy>([_, b]: [A; 2]) -> A {
-                b
-            }
-        }
-    };
-}
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pair!(f64, wide::f64x2, [0.0; 2]);
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-pair!(f32, wide::f32x4, [0.0; 4]);
 
 /// Three components.
 pub(super) type V<L> = [L; 3];

@@ -30,6 +30,8 @@ pub(crate) mod lanes;
 mod limb_inertia;
 mod limbs;
 mod mass_matrix;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub(crate) mod pair;
 mod reversed;
 
 pub use fault::DynamicsFault;

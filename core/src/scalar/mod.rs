@@ -4,7 +4,7 @@ mod sine_cosine;
 
 use crate::dynamics::lanes::Lanes;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use crate::dynamics::lanes::Pair;
+use crate::dynamics::pair::Pair;
 use crate::model::{GeneralJoint, GeneralMotion};
 
 mod sealed {
