@@ -6,10 +6,10 @@ use surefoot::balance::{
 };
 use surefoot::estimate::{Concern, OutOfBounds};
 use surefoot_link::{
-    BAUD, Clock, Counter, Crash, FaultLog, FromTarget, Identity, Joints, LineErrors, LoggedFault,
-    Estimated, MOST_FEET, MOST_FRAME, Pacing, Receiver, Rejected, RobotId, Sender, Sensors, Settings, Status,
-    Tally, TickLimits, Torques, VERSION, WrenchSettings, frame_bytes, most_wire_bytes,
-    shortest_period_us, wire_us,
+    BAUD, Clock, Counter, Crash, Estimated, FaultLog, FromTarget, Identity, Joints, LineErrors,
+    LoggedFault, MOST_FEET, MOST_FRAME, Pacing, Receiver, Rejected, RobotId, Sender, Sensors,
+    Settings, Status, Tally, TickLimits, Torques, VERSION, WrenchSettings, frame_bytes,
+    most_wire_bytes, shortest_period_us, wire_us,
 };
 
 const SESSION: u32 = 0x1234_5678;
@@ -172,7 +172,11 @@ fn torques<const N: usize>() -> Torques<N> {
         estimated: Some(Estimated {
             central: [1.0; 13],
             made_anew: u8::MAX,
-            worst: Some(OutOfBounds { concern: Concern::FootPosition(usize::MAX), size: 1.0, limit: 1.0 }),
+            worst: Some(OutOfBounds {
+                concern: Concern::FootPosition(usize::MAX),
+                size: 1.0,
+                limit: 1.0,
+            }),
         }),
         cost: u32::MAX,
         latency: u32::MAX,
