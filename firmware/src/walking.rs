@@ -1,11 +1,11 @@
 //! The controller of a robot that walks: planner and whole-body controller.
 
 use crate::control::Measurement;
-use crate::robot::{FEET, JOINTS, ROWS};
+use crate::robot::{COORDINATES, FEET, JOINTS, NODES, ROWS, VELOCITIES};
 use crate::stance::{self, MODEL, Stance};
 use surefoot::balance::{
-    Command, Fault, Reference, RobotState, WholeBodyController, WholeBodyMemory, WholeBodyState,
-    observe, whole_body_motion_tick,
+    Command, Fault, ObservedBody, Reference, RobotState, WholeBodyController, WholeBodyMemory,
+    WholeBodyState, whole_body_motion_tick,
 };
 use surefoot::spatial::Quaternion;
 use surefoot::walk::{Planner, RANGE_MARGIN, WalkCommand, WalkMemory};
@@ -39,6 +39,8 @@ pub struct Balance {
     command: WalkCommand<f32>,
     period: f32,
     memory: WholeBodyMemory<f32>,
+    /// The state, its kinematics and masses: here, and on no stack.
+    observed: ObservedBody<f32, NODES, COORDINATES, VELOCITIES>,
     /// Of the last tick.
     met: Option<TickLimits<f32>>,
 }
@@ -53,6 +55,7 @@ impl Balance {
             command: WalkCommand::stand(),
             period: crate::control::PERIOD,
             memory: WholeBodyMemory::new(),
+            observed: ObservedBody::new(),
             met: None,
         }
     }
@@ -134,17 +137,17 @@ impl Balance {
         _: &Reference<f32>,
         measured: Option<&Measurement>,
     ) -> Result<Command<f32, ROWS>, Fault> {
-        let Self { stance, walker, plan, memory, met, .. } = self;
+        let Self { stance, walker, plan, memory, observed, met, .. } = self;
         // None is armed without both, and no tick goes on without a measurement.
         let (Some(Stance { robot, settings }), Some(walker)) = (stance, walker) else {
             return Err(Fault::NotHeld);
         };
         let forces = measured.map_or(&[0.0; FEET], |measured| &measured.forces);
         let controller = WholeBodyController { tree: &MODEL, robot, settings };
-        let observed = observe(&controller, &WholeBodyState::of_rows(state))?;
+        observed.observe(&controller, &WholeBodyState::of_rows(state))?;
         let motion = observed.motion(&controller)?;
         let task = walker.planner.plan(plan, &motion, forces, &self.command, self.period)?;
-        let answer = whole_body_motion_tick(&controller, &observed, &task.motion, memory)?;
+        let answer = whole_body_motion_tick(&controller, observed, &task.motion, memory)?;
         *met = Some(TickLimits::from(&answer.limits));
         Ok(answer.in_rows())
     }

@@ -170,6 +170,7 @@ fn torques<const N: usize>() -> Torques<N> {
         steps: u32::MAX,
         cost: u32::MAX,
         latency: u32::MAX,
+        estimated: None,
     }
 }
 
@@ -487,6 +488,7 @@ fn frames_of_a_tick_are_short() {
         steps: 0,
         cost: 20_721,
         latency: 28,
+        estimated: None,
     };
     let received = frame(&mut sender(), &FromTarget::Torques(answer)).len();
     assert_eq!((sent, received), (168, 97));

@@ -3,13 +3,15 @@
 //! `cargo xtask budget` runs it. `TRACE` is where QEMU writes down every instruction of some ticks.
 
 use serde_json::{Value, json};
+use std::error::Error;
+use std::path::Path;
 use surefoot::balance::Mode;
 use surefoot_link::{Sensors, Stages, ToTarget};
 use surefoot_sim::closed_loop;
 use surefoot_sim::closed_loop::firmware::{
     Emulator, FirmwareController, LinkError, image_for, sensors, set_point, settings,
 };
-use surefoot_sim::scene::{Push, Scene, load};
+use surefoot_sim::scene::{Disturbance, Push, Scene, StateSource, load};
 
 /// Of the robot of the text.
 const JOINTS: usize = 12;
@@ -18,7 +20,7 @@ type Target = surefoot_sim::closed_loop::firmware::Target<JOINTS>;
 /// Ticks that are traced, after the first, which also takes orders.
 const TRACED: usize = 2;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn main() -> Result<(), Box<dyn Error>> {
     let trace = std::env::args().nth(1).ok_or("budget TRACE")?;
     let scenes = ["experiment-1", "experiment-1-pushes"];
     let mut costs = Vec::new();
@@ -36,11 +38,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         stack = stack.max(controller.target().status()?.stack_bytes);
     }
     let limited = limited(&mut stack)?;
+    let sensing = sensing()?;
+    let walk = walk()?;
     let scene = load(scenes[0])?;
     let stages = profile(&scene)?;
     eprintln!("  every instruction of {TRACED} ticks");
     traced(&scene, &trace)?;
-    println!("{:#}", document(&costs, &limited, stack, &stages));
+    let mut document = document(&costs, &limited, stack, &stages);
+    document["sensing"] = sensing;
+    document["walk"] = walk;
+    println!("{document:#}");
     Ok(())
 }
 
@@ -66,7 +73,7 @@ fn profile(scene: &Scene) -> Result<[Stages; 2], LinkError> {
     Ok(both)
 }
 
-fn traced(scene: &Scene, trace: &str) -> Result<(), Box<dyn std::error::Error>> {
+fn traced(scene: &Scene, trace: &str) -> Result<(), Box<dyn Error>> {
     let arguments = ["-singlestep", "-d", "in_asm,exec,nochain", "-D", trace];
     let mut target = target(scene, &arguments)?;
     target.order("configure", &ToTarget::Configure(settings(scene)))?;
@@ -89,7 +96,7 @@ const PUSHES: [(f64, f64); 5] =
     [(25.0, 0.0), (35.0, 45.0), (35.0, 90.0), (25.0, 135.0), (18.0, 180.0)];
 
 /// Costs of ticks within limits of ground and motors: those in which none bound, and those in which some did.
-fn limited(stack: &mut u32) -> Result<[Vec<u32>; 2], Box<dyn std::error::Error>> {
+fn limited(stack: &mut u32) -> Result<[Vec<u32>; 2], Box<dyn Error>> {
     let mut costs = [Vec::new(), Vec::new()];
     for (impulse, degrees) in PUSHES {
         eprintln!(
@@ -112,6 +119,60 @@ fn limited(stack: &mut u32) -> Result<[Vec<u32>; 2], Box<dyn std::error::Error>>
         *stack = (*stack).max(controller.target().status()?.stack_bytes);
     }
     Ok(costs)
+}
+
+/// Costs of a scene's ticks on an image, the first left out, with those in which no limit bound, and the stack.
+fn played(scene: &Scene, image: &Path) -> Result<(Vec<u32>, Vec<u32>, u32), Box<dyn Error>> {
+    let emulator = Emulator::start_with(image, &std::env::temp_dir(), &[])?;
+    let mut controller = FirmwareController::<JOINTS>::new(Target::connect(emulator)?, scene)?;
+    let run = closed_loop::run(scene, &mut controller, &mut |_| {});
+    if let Some(failure) = run.failure {
+        return Err(format!("{} failed: {}", scene.name, failure.place).into());
+    }
+    let all = controller.tick_costs()[1..].to_vec();
+    let ticks = all.iter().zip(&controller.limited_ticks()[1..]);
+    let free = ticks.filter(|(_, is_limited)| !**is_limited).map(|(cost, _)| *cost).collect();
+    Ok((all, free, controller.target().status()?.stack_bytes))
+}
+
+fn mean(costs: &[u32]) -> f64 {
+    costs.iter().map(|cost| f64::from(*cost)).sum::<f64>() / costs.len().max(1) as f64
+}
+
+/// What filter and observer take of a tick: `stand-loaded` without its load for 1 s, within limits of which none
+/// binds, with and without each; and both together with the load.
+fn sensing() -> Result<Value, Box<dyn Error>> {
+    let loaded = load("stand-loaded")?;
+    let image = image_for(&loaded)?;
+    let scene = |state, disturbance| {
+        let mut scene = Scene { duration_s: 1.0, ..loaded.clone() };
+        scene.plant = load("stand")?.plant;
+        scene.sensing.state = state;
+        scene.controller.disturbance = disturbance;
+        Ok::<_, Box<dyn Error>>(scene)
+    };
+    let free = |state, disturbance| {
+        eprintln!("  stand, state {state:?}, disturbances {disturbance:?}, on the target");
+        let (_, free, _) = played(&scene(state, disturbance)?, &image)?;
+        // From half a second on all have come to rest.
+        Ok::<_, Box<dyn Error>>(mean(&free[free.len() / 2..]))
+    };
+    let plain = free(StateSource::Truth, Disturbance::Ignored)?;
+    let filter = free(StateSource::Estimate, Disturbance::Ignored)? - plain;
+    let observer = free(StateSource::Truth, Disturbance::Observed)? - plain;
+    eprintln!("  stand-loaded with filter and observer on the target");
+    let (all, _, stack) = played(&Scene { duration_s: 4.0, ..loaded }, &image)?;
+    Ok(json!({
+        "filter": filter, "observer": observer, "tick": spread(&all), "stack_bytes": stack,
+    }))
+}
+
+/// Ticks of a walk, by planner and whole-body controller.
+fn walk() -> Result<Value, Box<dyn Error>> {
+    let scene = load("walk")?;
+    eprintln!("  walk with planner and controller on the target");
+    let (all, _, stack) = played(&scene, &image_for(&scene)?)?;
+    Ok(json!({ "tick": spread(&all), "stack_bytes": stack }))
 }
 
 fn spread(costs: &[u32]) -> Value {

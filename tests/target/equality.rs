@@ -2,7 +2,7 @@
 
 use crate::bench::{JOINTS, Torques, target};
 use surefoot::balance::StopReason;
-use surefoot_sim::closed_loop::firmware::FirmwareController;
+use surefoot_sim::closed_loop::firmware::{Emulator, FirmwareController, Target, image_for};
 use surefoot_sim::closed_loop::{self, Commanded, ControlFailure, Controller, Scalar};
 use surefoot_sim::plant::PlantState;
 use surefoot_sim::scene::{Feet, Outline, Push, Scene, load};
@@ -133,6 +133,35 @@ fn supervisors_are_the_same_to_the_last_bit() {
         let run = closed_loop::run(&scene, &mut twins, &mut |_| {});
         println!("{name}, {sole:?}: {:?} {:?}", run.outcome, run.stop);
         assert_eq!(run.stop.is_some(), is_stopped);
+    }
+}
+
+/// With a filter on the target that has its own sensors alone, and with an observer: every number of the record, the
+/// estimate and what the filter says of it among them.
+#[test]
+#[ignore = "needs the firmware's images: `cargo xtask test --only firmware`"]
+fn estimates_are_the_same_to_the_last_bit() {
+    let sensing = load("stand-loaded").expect("built in").sensing;
+    for name in ["experiment-1", "experiment-2", "stand", "stand-loaded"] {
+        let scene = Scene { sensing: sensing.clone(), ..load(name).expect("built in") };
+        let image = image_for(&scene).expect("built");
+        let emulator = Emulator::start(&image, &std::env::temp_dir()).expect("it starts");
+        let target = Target::connect(emulator).expect("it answers");
+        let mut target = FirmwareController::<JOINTS>::new(target, &scene).expect("obeyed");
+        let mut host = closed_loop::controller(&scene, Scalar::F32);
+        let [on_host, on_target] = [host.as_mut() as &mut dyn Controller, &mut target]
+            .map(|controller| closed_loop::run(&scene, controller, &mut |_| {}));
+        let status = target.target().status().expect("an answer");
+        let costs = target.costs().expect("costs");
+        println!("{name}: {:?} {costs:?}, stack {} bytes", on_target.outcome, status.stack_bytes);
+        assert_eq!(on_host.failure, on_target.failure);
+        assert_eq!(on_host.estimate, on_target.estimate);
+        assert!(on_target.estimate.is_some() && on_target.failure.is_none());
+        assert_eq!(on_host.samples.len(), on_target.samples.len());
+        for (a, b) in on_host.samples.iter().zip(&on_target.samples) {
+            assert_eq!(a, b, "{name} at {} s", a.time_s);
+        }
+        assert!(status.stack_bytes <= 16_384 && status.overruns == 0, "{status:?}");
     }
 }
 

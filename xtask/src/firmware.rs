@@ -239,6 +239,16 @@ fn build_images(images: &[Variant], robot: &Robot) -> Result<()> {
     images.iter().try_for_each(|image| image.build(&Toolchain::provide(image.target())?, robot))
 }
 
+/// The robot of the text in images that estimate the state, and in ones that walk.
+pub fn variants() -> Result<[Robot; 2]> {
+    Ok([Robot::of_the_text()?.estimating(), Robot::of_the_text()?.walking()])
+}
+
+/// Builds these for the emulator.
+pub fn build_variants(arm: &Toolchain) -> Result<()> {
+    variants()?.iter().try_for_each(|robot| Variant::Emulation.build(arm, robot))
+}
+
 /// Builds all images, and says where they are.
 pub fn run(options: &Options) -> Result<()> {
     let robot = match &options.robot {

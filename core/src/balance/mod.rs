@@ -28,7 +28,7 @@ mod leg_jacobian;
 mod leg_kinematics;
 mod limited;
 mod robot;
-mod square;
+pub(crate) mod square;
 mod state;
 mod supervisor;
 mod tick;
@@ -67,6 +67,6 @@ pub use whole_body::{
     WholeBodyRobotFault, WholeBodySettings, WholeBodyState, observe, whole_body_motion_tick,
     whole_body_motion_tick_under, whole_body_tick, whole_body_tick_under,
 };
-pub(crate) use whole_body::{JointLine, Leg, edge_axes, joint_line};
+pub(crate) use whole_body::{Leg, edge_axes};
 pub use workspace_dynamics::{WorkspaceDynamics, big_base, fixed_foot_dynamics, fixed_foot_wrench};
 pub use wrench_distribution::{FootWrenches, wrench_distribution};

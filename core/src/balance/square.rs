@@ -9,7 +9,7 @@ const N: usize = 6;
 
 /// `A`, factored.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Square<T> {
+pub(crate) struct Square<T> {
     /// Unit lower triangle `L` below the diagonal, `U` on and above it, by rows.
     factors: [[T; N]; N],
     /// Row of `A` that became row i.

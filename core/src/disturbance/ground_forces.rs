@@ -13,18 +13,23 @@
 //! (1) loses by squaring the condition (least squares of a floating base's legs: Flacco, Paolillo and
 //! Kheddar, Humanoids 2016).
 //!
+//! A leg of six joints on a sole has `F` from `Jᵀ F = r` directly, while all pivots are far above ε₀.
+//!
 //! A load on the leg itself reads as a force on its foot.
 
 use super::ResidualReading;
 use crate::Real;
-use crate::balance::{JointLine, Leg, MOST_LEG_JOINTS, WholeBody, edge_axes, joint_line};
-use crate::model::Tree;
+use crate::balance::square::Square;
+use crate::balance::{Leg, MOST_LEG_JOINTS, WholeBody, edge_axes};
+use crate::model::{Axis, JointKind, Node, Tree};
 use crate::qp::Ldl;
 use crate::spatial::{Pose, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
 /// `ε₀` of (2): as the whole-body controller has it.
 const LEAST: f64 = 0.01;
+/// Pivots of a leg whose posture is far from a singular one: five times what (2) begins at.
+const LEAST_PIVOT: f64 = 0.1;
 
 /// What the ground does to a foot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,12 +57,37 @@ pub fn ground_forces<
     robot: &WholeBody<T, FEET, NV>,
     reading: &ResidualReading<T, N, NV>,
 ) -> [Option<FootForce<T>>; FEET] {
+    forces(tree, robot, &reading.r, &reading.frames)
+}
+
+/// The same of the parts of a reading.
+#[inline(always)]
+pub(super) fn forces<
+    T: Real,
+    const N: usize,
+    const NQ: usize,
+    const NV: usize,
+    const FEET: usize,
+>(
+    tree: &Tree<T, N, NQ, NV>,
+    robot: &WholeBody<T, FEET, NV>,
+    r: &[T; NV],
+    frames: &[Pose<T>; N],
+) -> [Option<FootForce<T>>; FEET] {
     let mut feet = [None; FEET];
     for (foot, leg) in feet.iter_mut().zip(&robot.legs) {
         let Some(leg) = leg else { continue };
-        let Some(body) = reading.bodies.get(leg.foot.body) else { continue };
-        let position = body.transform_point(leg.foot.reference);
-        *foot = wrench(tree, robot, leg, reading, (body, position))
+        let at = leg.foot.body;
+        let (Some(node), Some(frame)) = (tree.nodes.get(at), frames.get(at)) else {
+            continue;
+        };
+        let rotation = match &node.body_rotation {
+            None => frame.rotation,
+            Some(body) => frame.rotation * body,
+        };
+        let position =
+            frame.position + frame.rotation * node.center + rotation * leg.foot.reference;
+        *foot = wrench(tree, robot, leg, (r, frames), (&rotation, position))
             .map(|wrench| FootForce { wrench, position });
     }
     feet
@@ -69,8 +99,8 @@ fn wrench<T: Real, const N: usize, const NQ: usize, const NV: usize, const FEET:
     tree: &Tree<T, N, NQ, NV>,
     robot: &WholeBody<T, FEET, NV>,
     leg: &Leg<T>,
-    reading: &ResidualReading<T, N, NV>,
-    (body, position): (&Pose<T>, Vector3<T>),
+    (of_joints, frames): (&[T; NV], &[Pose<T>; N]),
+    (foot, position): (&Matrix3<T>, Vector3<T>),
 ) -> Option<Wrench<T>> {
     let per_reach = T::one() / leg.reach;
     // Columns of J in world axes: the foot's twist per rate of each joint.
@@ -80,15 +110,18 @@ fn wrench<T: Real, const N: usize, const NQ: usize, const NV: usize, const FEET:
         columns.iter_mut().zip(&mut r).zip(leg.joints.iter().take(leg.count))
     {
         let joint = robot.joints.get(*velocity)?.as_ref()?;
-        let pose = reading.bodies.get(joint.node)?;
-        let JointLine { along, point } = joint_line(tree.nodes.get(joint.node)?, pose)?;
-        let (linear, angular) = match point {
-            Some(point) => (along.cross(&(position - point)), along),
-            None => (along, Vector3::zeros()),
+        let (node, frame) = (tree.nodes.get(joint.node)?, frames.get(joint.node)?);
+        let (linear, angular) = match &node.kind {
+            JointKind::Revolute(axis) => {
+                let along = along(node, frame, *axis);
+                (along.cross(&(position - frame.position)), along)
+            }
+            JointKind::Prismatic(axis) => (along(node, frame, *axis), Vector3::zeros()),
+            _ => return None,
         };
         let linear = linear * per_reach;
         *column = [linear.x, linear.y, linear.z, angular.x, angular.y, angular.z];
-        *r = *reading.r.get(*velocity)?;
+        *r = *of_joints.get(*velocity)?;
     }
     let moments = leg.foot.limits.patch.moments();
     let found = match moments {
@@ -97,8 +130,11 @@ fn wrench<T: Real, const N: usize, const NQ: usize, const NV: usize, const FEET:
             let [x, y, z] = least_squares(&linear, &r, leg.count, None)?;
             [x, y, z, T::zero(), T::zero(), T::zero()]
         }
-        [true, true, true] => least_squares(&columns, &r, leg.count, None)?,
-        _ => on_edge(leg, body, &columns, &r, moments)?,
+        [true, true, true] => match square(&columns, &r, leg.count) {
+            Some(found) => found,
+            None => least_squares(&columns, &r, leg.count, None)?,
+        },
+        _ => on_edge(leg, foot, &columns, &r, moments)?,
     };
     let wrench = Wrench::from_array(found);
     // F of J in units of the reach is a force times it.
@@ -106,16 +142,41 @@ fn wrench<T: Real, const N: usize, const NQ: usize, const NV: usize, const FEET:
     wrench.is_finite().then_some(wrench)
 }
 
+/// A joint's axis in the sense in which its coordinate counts.
+#[inline(always)]
+fn along<T: Real>(node: &Node<T>, frame: &Pose<T>, axis: Axis) -> Vector3<T> {
+    let along: Vector3<T> = match axis {
+        Axis::X => frame.rotation.column(0).into(),
+        Axis::Y => frame.rotation.column(1).into(),
+        Axis::Z => frame.rotation.column(2).into(),
+    };
+    if node.is_reversed { -along } else { along }
+}
+
+/// `F` with `Jᵀ F = r`, which is (1), for six joints that are far from a singular posture; `None` for others.
+#[inline(always)]
+fn square<T: Real>(
+    columns: &[[T; 6]; MOST_LEG_JOINTS],
+    r: &[T; MOST_LEG_JOINTS],
+    count: usize,
+) -> Option<[T; 6]> {
+    if count != 6 {
+        return None;
+    }
+    let factors = Square::new(*columns.first_chunk::<6>()?, T::of(LEAST_PIVOT))?;
+    Some(factors.solve(r.first_chunk::<6>()?))
+}
+
 /// The same for an edge: without the moment about it.
 #[inline(never)]
 fn on_edge<T: Real>(
     leg: &Leg<T>,
-    body: &Pose<T>,
+    foot: &Matrix3<T>,
     columns: &[[T; 6]; MOST_LEG_JOINTS],
     r: &[T; MOST_LEG_JOINTS],
     [x, _, _]: [bool; 3],
 ) -> Option<[T; 6]> {
-    let axes = edge_axes(&Matrix3::identity(), &(body.rotation * leg.axes), !x);
+    let axes = edge_axes(&Matrix3::identity(), &(foot * leg.axes), !x);
     let missing = if x { axes.column(1) } else { axes.column(0) };
     let missing: Vector3<T> = missing.into();
     let without = columns.map(|[a, b, c, d, e, f]| {

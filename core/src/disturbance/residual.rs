@@ -21,7 +21,10 @@
 use super::ObserverFault;
 use crate::Real;
 use crate::balance::WholeBodyState;
-use crate::dynamics::{DynamicsFault, JointPoses, body_poses, inverse_dynamics, joint_poses};
+use crate::dynamics::{
+    DynamicsFault, JointPoses, floating_inverse_dynamics, inverse_dynamics, joint_frames,
+    joint_poses,
+};
 use crate::model::Tree;
 use crate::spatial::{Pose, Wrench};
 
@@ -34,6 +37,8 @@ pub struct Residual<T, const N: usize, const NQ: usize, const NV: usize> {
     per_second: T,
     before: Option<Before<T, N, NQ, NV>>,
     r: [T; NV],
+    /// As of a reading.
+    frames: [Pose<T>; N],
 }
 
 /// A state that was measured. Its central body is at the origin.
@@ -48,9 +53,9 @@ struct Before<T, const N: usize, const NQ: usize, const NV: usize> {
 pub struct ResidualReading<T, const N: usize, const NV: usize> {
     /// `r` by velocity, N and N·m; of the central body a wrench about its centre of mass, in world axes.
     pub r: [T; NV],
-    /// World axes from those of each body, at the tick before; positions from the central body's centre of
-    /// mass, m.
-    pub bodies: [Pose<T>; N],
+    /// World axes from those of each joint's frame, at the tick before; positions from the central body's centre
+    /// of mass, m.
+    pub(crate) frames: [Pose<T>; N],
 }
 
 impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Residual<T, N, NQ, NV> {
@@ -69,7 +74,8 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Residual<T, N, N
         if !(gain > T::zero() && gain <= T::one()) {
             return Err(ObserverFault::Rate);
         }
-        Ok(Self { gain, per_second: T::one() / period, before: None, r: [T::zero(); NV] })
+        let frames = [Pose::identity(); N];
+        Ok(Self { gain, per_second: T::one() / period, before: None, r: [T::zero(); NV], frames })
     }
 
     /// (1) and (2) for the state at this tick and the torques (by velocity, N·m or N; those of the central
@@ -80,46 +86,54 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Residual<T, N, N
     /// one, and `r` is as it was.
     ///
     /// # Cost
-    /// One inverse dynamics, and the bodies' poses. No allocation, no panic.
-    #[inline(always)]
+    /// One inverse dynamics with the joints' frames. No allocation, no panic.
+    #[inline]
     pub fn update(
         &mut self,
         tree: &Tree<T, N, NQ, NV>,
         state: &WholeBodyState<T, NQ, NV>,
         torques: &[T; NV],
     ) -> Result<Option<ResidualReading<T, N, NV>>, DynamicsFault> {
-        let before = self.before.take();
+        let is_read = self.advance(tree, state, torques)?;
+        Ok(is_read.then(|| ResidualReading { r: self.r, frames: self.frames }))
+    }
+
+    /// The same in place: whether it was not the first tick.
+    #[inline(always)]
+    pub(super) fn advance(
+        &mut self,
+        tree: &Tree<T, N, NQ, NV>,
+        state: &WholeBodyState<T, NQ, NV>,
+        torques: &[T; NV],
+    ) -> Result<bool, DynamicsFault> {
         let mut positions = state.positions;
         positions.iter_mut().take(3).for_each(|x| *x = T::zero());
-        let poses = joint_poses(tree, &positions)?;
-        let velocities = state.velocities;
-        let Some(before) = before else {
-            self.before = Some(Before { poses, velocities });
-            return Ok(None);
+        let poses = joint_poses(tree, &positions);
+        let found = match (&self.before, &poses) {
+            (Some(before), Ok(_)) => {
+                let mut accelerations = state.velocities;
+                for (x, old) in accelerations.iter_mut().zip(&before.velocities) {
+                    *x = (*x - *old) * self.per_second;
+                }
+                let frames = &mut self.frames;
+                difference(tree, before, &accelerations, torques, frames).map(Some)
+            }
+            _ => Ok(None),
         };
-        let mut accelerations = velocities;
-        for (x, old) in accelerations.iter_mut().zip(&before.velocities) {
-            *x = (*x - *old) * self.per_second;
-        }
-        let bodies = body_poses(tree, &before.poses);
-        let mut e = inverse_dynamics(tree, &before.poses, &before.velocities, &accelerations, None);
-        if let (Some(base), Some(central)) = (e.first_chunk_mut::<6>(), bodies.first()) {
-            let wrench = Wrench::from_array(*base);
-            let (force, torque) =
-                (central.rotation * wrench.force, central.rotation * wrench.torque);
-            *base = Wrench { force, torque }.to_array();
-        }
-        for (e, torque) in e.iter_mut().zip(torques).skip(6) {
-            *e -= *torque;
-        }
-        if let Some(index) = e.iter().position(|x| !x.is_finite()) {
-            return Err(DynamicsFault::ResultNotFinite { index });
-        }
+        self.before = None;
+        let (poses, found) = (poses?, found?);
+        self.before = Some(Before { poses, velocities: state.velocities });
+        let Some(e) = found else { return Ok(false) };
         for (r, e) in self.r.iter_mut().zip(&e) {
             *r += (*e - *r) * self.gain;
         }
-        self.before = Some(Before { poses, velocities });
-        Ok(Some(ResidualReading { r: self.r, bodies }))
+        Ok(true)
+    }
+
+    /// The frames of the last reading.
+    #[inline(always)]
+    pub(super) fn frames(&self) -> &[Pose<T>; N] {
+        &self.frames
     }
 
     /// `r`, to be kept; see [`restore`](Self::restore).
@@ -140,4 +154,54 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Residual<T, N, N
         self.before = poses.map(|poses| Before { poses, velocities: state.velocities });
         self.r = *r;
     }
+}
+
+/// (1), in world axes where the central body's are, and the joints' frames.
+#[inline(always)]
+fn difference<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    Before { poses, velocities }: &Before<T, N, NQ, NV>,
+    accelerations: &[T; NV],
+    torques: &[T; NV],
+    frames: &mut [Pose<T>; N],
+) -> Result<[T; NV], DynamicsFault> {
+    let mut e = [T::zero(); NV];
+    let found = floating_inverse_dynamics::<_, N, NQ, NV, true>(
+        tree,
+        poses,
+        velocities,
+        accelerations,
+        frames,
+        &mut e,
+    );
+    if found.is_none() {
+        of_any(tree, poses, velocities, accelerations, frames, &mut e);
+    }
+    if let (Some(base), Some(central)) = (e.first_chunk_mut::<6>(), frames.first()) {
+        let wrench = Wrench::from_array(*base);
+        let (force, torque) = (central.rotation * wrench.force, central.rotation * wrench.torque);
+        *base = Wrench { force, torque }.to_array();
+    }
+    for (e, torque) in e.iter_mut().zip(torques).skip(6) {
+        *e -= *torque;
+    }
+    match e.iter().position(|x| !x.is_finite()) {
+        Some(index) => Err(DynamicsFault::ResultNotFinite { index }),
+        None => Ok(e),
+    }
+}
+
+/// Inverse dynamics and frames of trees with rotors, or with other joints than revolute ones.
+#[cold]
+#[inline(never)]
+fn of_any<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    poses: &JointPoses<T, N, NQ>,
+    velocities: &[T; NV],
+    accelerations: &[T; NV],
+    frames: &mut [Pose<T>; N],
+    torques: &mut [T; NV],
+) {
+    *torques = inverse_dynamics(tree, poses, velocities, accelerations, None);
+    *frames = joint_frames(tree, poses);
 }

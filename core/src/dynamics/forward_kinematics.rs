@@ -45,15 +45,23 @@ pub fn forward_kinematics<T: Real, const N: usize, const NQ: usize, const NV: us
     velocities: &[T; NV],
     accelerations: &[T; NV],
 ) -> Kinematics<T, N> {
+    let mut bodies = [BodyKinematics::still(); N];
+    forward_kinematics_in(tree, joint_poses, velocities, accelerations, &mut bodies);
+    bodies
+}
+
+/// The same into a place that is there already: a copy costs a sixth of it.
+#[inline]
+pub(crate) fn forward_kinematics_in<T: Real, const N: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<T, N, NQ, NV>,
+    joint_poses: &JointPoses<T, N, NQ>,
+    velocities: &[T; NV],
+    accelerations: &[T; NV],
+    frames: &mut Kinematics<T, N>,
+) {
     along_axes!(tree, velocities, accelerations);
-    let still = BodyKinematics {
-        pose: Pose { rotation: Matrix3::zeros(), position: Vector3::zeros() },
-        velocity: Twist::zero(),
-        acceleration: Twist::zero(),
-    };
-    let base = BodyKinematics { pose: Pose::identity(), ..still };
-    // Of the joint frames, which is where the recursion runs.
-    let mut frames = [still; N];
+    let base = BodyKinematics { pose: Pose::identity(), ..BodyKinematics::still() };
+    // Of the joint frames first, which is where the recursion runs.
     for (k, (node, turn)) in tree.nodes.iter().zip(&joint_poses.turns).enumerate() {
         // Results are written where they stay: to put them together first and copy them then would
         // take as long as to find them.
@@ -93,7 +101,17 @@ pub fn forward_kinematics<T: Real, const N: usize, const NQ: usize, const NV: us
             body.acceleration = turned_back(r, body.acceleration);
         }
     }
-    frames
+}
+
+impl<T: Real> BodyKinematics<T> {
+    /// To be filled.
+    pub(crate) fn still() -> Self {
+        Self {
+            pose: Pose { rotation: Matrix3::zeros(), position: Vector3::zeros() },
+            velocity: Twist::zero(),
+            acceleration: Twist::zero(),
+        }
+    }
 }
 
 /// (3.1): world from body, for every body. O(N).

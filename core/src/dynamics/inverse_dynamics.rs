@@ -148,11 +148,12 @@ pub fn bias_forces<T: Real, const N: usize, const NQ: usize, const NV: usize>(
 
 /// Motion of a joint frame, with `K`.
 #[derive(Clone, Copy)]
-struct Motion<T> {
-    omega: Vector3<T>,
-    omega_dot: Vector3<T>,
-    a: Vector3<T>,
-    k: Matrix3<T>,
+pub(super) struct Motion<T> {
+    pub omega: Vector3<T>,
+    pub omega_dot: Vector3<T>,
+    /// Less gravity.
+    pub a: Vector3<T>,
+    pub k: Matrix3<T>,
 }
 
 /// Outboard step of `ω`, `ω̇`, `a` and `K` across a joint that is not revolute.
@@ -189,7 +190,7 @@ fn step<T: Real, const N: usize, const NQ: usize, const NV: usize>(
 
 /// Adds a turn about axis `I`: `ω + e β`, `ω̇ + e β̇ + ω × e β`.
 #[inline(always)]
-fn turn<T: Real, const I: usize>(
+pub(super) fn turn<T: Real, const I: usize>(
     omega: &mut Vector3<T>,
     omega_dot: &mut Vector3<T>,
     beta: T,
@@ -204,7 +205,7 @@ fn turn<T: Real, const I: usize>(
 
 /// `K` of (1).
 #[inline(always)]
-fn point_acceleration<T: Real>(omega: Vector3<T>, omega_dot: Vector3<T>) -> Matrix3<T> {
+pub(super) fn point_acceleration<T: Real>(omega: Vector3<T>, omega_dot: Vector3<T>) -> Matrix3<T> {
     let (w, d) = (omega, omega_dot);
     let (xx, yy, zz) = (w.x * w.x, w.y * w.y, w.z * w.z);
     let (xy, xz, yz) = (w.x * w.y, w.x * w.z, w.y * w.z);
@@ -223,7 +224,7 @@ fn point_acceleration<T: Real>(omega: Vector3<T>, omega_dot: Vector3<T>) -> Matr
 
 /// The body's own part of (2).
 #[inline(always)]
-fn inertial_wrench<T: Real>(node: &Node<T>, motion: &Motion<T>) -> Wrench<T> {
+pub(super) fn inertial_wrench<T: Real>(node: &Node<T>, motion: &Motion<T>) -> Wrench<T> {
     let inertia = &node.inertia;
     let mut wrench = Wrench {
         force: motion.a * inertia.mass,

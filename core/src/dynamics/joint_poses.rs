@@ -121,6 +121,12 @@ fn normalize<T: Real, const NQ: usize>(positions: &mut [T; NQ], start: usize) ->
 }
 
 impl<T: Real, const N: usize, const NQ: usize> JointPoses<T, N, NQ> {
+    /// To be filled.
+    pub(crate) fn home() -> Self {
+        let turn = AxisTurn { cosine: T::one(), sine: T::zero() };
+        Self { turns: [turn; N], positions: [T::zero(); NQ] }
+    }
+
     /// The relative pose of joint `k`.
     #[inline(always)]
     pub(super) fn pose(&self, k: usize, node: &Node<T>) -> Option<JointPose<T>> {

@@ -15,6 +15,7 @@
 
 mod columns;
 mod fault;
+mod floating;
 mod floating_root;
 mod forward_dynamics;
 mod forward_kinematics;
@@ -22,6 +23,7 @@ mod forward_limbs;
 mod inverse_dynamics;
 mod inverse_limbs;
 mod joint_block;
+mod joint_frames;
 mod joint_motion;
 mod joint_poses;
 pub(crate) mod lanes;
@@ -31,11 +33,14 @@ mod mass_matrix;
 mod reversed;
 
 pub use fault::DynamicsFault;
+pub(crate) use floating::{floating_inverse_dynamics, legged_inverse_dynamics};
 pub use forward_dynamics::forward_dynamics;
 pub(crate) use forward_dynamics::project_turn;
+pub(crate) use forward_kinematics::forward_kinematics_in;
 pub use forward_kinematics::{
     BodyKinematics, Kinematics, body_poses, body_velocities, forward_kinematics, position_rates,
 };
 pub use inverse_dynamics::{bias_forces, inverse_dynamics};
+pub(crate) use joint_frames::joint_frames;
 pub use joint_poses::{JointPoses, joint_poses};
 pub use mass_matrix::mass_matrix;

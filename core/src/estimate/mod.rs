@@ -48,7 +48,7 @@
 //! Of [`Estimator::step`] with two feet, f32, instructions on a Cortex-M4F: two soles of which one is used each
 //! tick ([`Turn::One`]) 22 300, both ([`Turn::All`]) 38 000; one that stands while the other swings 17 700, its
 //! touch-down's tick 25 100; with (9) 27 400, with (7) and (8) 29 900. Two points in turn 11 800. A foot that swings
-//! and one that is absent cost nothing. In f32 the estimate is within 1 µm and 0.01 mm/s of f64's.
+//! and one that is absent cost nothing. [`foot_poses`] of two legs of six joints take 2 000. In f32 the estimate is within 1 µm and 0.01 mm/s of f64's.
 //!
 //! # Supervision
 //! Estimates move by what the filter finds, beside what velocities do: a supervisor of measured states takes larger

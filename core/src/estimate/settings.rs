@@ -143,6 +143,19 @@ impl<T: Real> SensorNoise<T> {
         }
     }
 
+    /// The same of a robot that walks on it: soles roll and twist as they carry more than half of the weight's moments.
+    /// Less is believed of how a foot is turned, and of its heading; more would make errors of tilt and heading of
+    /// what a foot does.
+    pub fn walking() -> Self {
+        Self {
+            foot_tilt: T::of(0.02),
+            foot_heading: T::of(0.02),
+            leg_position: T::of(3e-3),
+            leg_orientation: T::of(0.01),
+            ..Self::yielding_ground()
+        }
+    }
+
     fn all(&self) -> [T; 15] {
         let [tilt, acceleration, rate] = self.start;
         [

@@ -6,7 +6,7 @@
 //! ```text
 //! v = √(2 g h),   a = (v² − ż²)/(2 (z_t − z))          push, replanned each tick                (1)
 //! d = h g/a_n within limits                            so that a is the usual a_n where it can be (2)
-//! L̇* = −k_L L − J (k α + …)                            both momentum and tilt end at zero       (3)
+//! L̇* = −k_L L − J k 2 q_e                              both momentum and tilt end at zero       (3)
 //! f_i = c + o_i + ċ/ω − (z − δ sin(π t/T))             a foot in flight: tucked up by δ         (4)
 //! ```
 //! (3) instead of the trunk's own rotation: a body that takes off with angular momentum turns until it lands, however

@@ -13,6 +13,9 @@
 //!      │                                     └──────── T_d later ───────┤  inside, command to stand
 //!      └────────────────────────────────────────────────────────────────┘
 //! ```
+//! From standing a robot jumps too (`Phase::Jump`: crouch, push, flight, landing, and again), and where it is to run, it goes on
+//! from double support in `Phase::Run`: a stance, a flight, a stance of the other side; a touch-down leads back to `Single`.
+//!
 //! A step is taken by a *side*: one foot of a biped, a diagonal pair of a quadruped (which then trots). The
 //! plan sees the mean point of a side's feet.
 //!
@@ -41,6 +44,9 @@
 //! - J. Pratt, J. Carff, S. Drakunov, A. Goswami, "Capture point: a step toward humanoid push recovery",
 //!   Humanoids 2006.
 //! - M. Raibert, *Legged robots that balance* (1986), chapter 2: speed by foot placement.
+//!   Running by the same source's three laws (chapters 2 and 3).
+//! - D. Orin, A. Goswami, S.-H. Lee, "Centroidal dynamics of a humanoid robot", *Auton. Robots* 35 (2013): the angular
+//!   momentum that a jump takes along.
 //! - T. Flash, N. Hogan, "The coordination of arm movements", J. Neurosci. 5 (1985): minimum jerk.
 //!
 //! The equations here were derived from these and checked against a program in Python on another

@@ -2,6 +2,7 @@
 
 use super::asked::is_finite;
 use super::heading::wrapped;
+use super::jump::JumpStage;
 use super::seen::Seen;
 use super::stepping::SingleSupport;
 use super::support;
@@ -63,6 +64,19 @@ impl<T: Real, const FEET: usize> Planner<T, FEET> {
                 Leeway { sinks: sinks * gait.height, leaps }
             }
             _ => Leeway { sinks: T::zero(), leaps: false },
+        }
+    }
+
+    /// Which feet the plan has on the ground: those of the side that stands, none in a flight.
+    pub fn planned(&self, memory: &WalkMemory<T, FEET>) -> [bool; FEET] {
+        match &memory.phase {
+            Phase::Single { swing, .. } => swing.each_ref().map(Option::is_none),
+            Phase::Run(run) => self
+                .stature
+                .feet
+                .map(|foot| foot.is_some_and(|foot| !run.flies && foot.side == run.side)),
+            Phase::Jump(jump) => [!matches!(jump.stage, JumpStage::Flight { .. }); FEET],
+            Phase::Standing | Phase::Double { .. } => [true; FEET],
         }
     }
 

@@ -35,7 +35,7 @@ const VERTICAL: [f64; 2] = [-0.815, 2.55];
 /// `k` of (2) forward and sideways, 1/ω.
 const PLACE: [f64; 2] = [0.173, 0.415];
 /// Half of the track in units of `W`, and how far a foot may land beyond the middle, `z`.
-const TRACK: [f64; 2] = [0.318, 0.0244];
+const TRACK: [f64; 2] = [0.32, 0.0244];
 /// A foot that swings during a stance is this high above the ground, one that will not land in a flight this high and
 /// this far behind the centre of mass, `z`.
 const CARRIED: [f64; 3] = [0.146, 0.122, 0.061];

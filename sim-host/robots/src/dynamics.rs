@@ -119,51 +119,6 @@ impl<'a> Dynamics<'a> {
         Ok(Self { robot, home: robot.home_poses(), evaluate })
     }
 
-    /// Coordinates of a state in a convention.
-    pub fn coordinates(&self, convention: Convention) -> usize {
-        let motions = self.robot.links.iter().map(|link| link.joint.motion);
-        motions.map(|motion| convention.coordinates(motion)).sum()
-    }
-
-    /// All algorithms at one state: coordinates, velocities, accelerations and torques of all joints, one after the
-    /// other in the robot's order.
-    ///
-    /// # Errors
-    /// Arrays of other lengths, coordinates that are not finite or of unit norm, joints that move no inertia.
-    pub fn evaluate(
-        &self,
-        convention: Convention,
-        [q, v, a, tau]: [&[f64]; 4],
-    ) -> Result<Evaluation, DynamicsError> {
-        let wanted = (self.coordinates(convention), self.robot.degrees_of_freedom());
-        for (name, found, wanted) in
-            [("q", q, wanted.0), ("v", v, wanted.1), ("a", a, wanted.1), ("tau", tau, wanted.1)]
-        {
-            if found.len() != wanted {
-                let message = format!("{name}: {} numbers; expected {wanted}", found.len());
-                return Err(DynamicsError::States { file: self.robot.name.clone(), message });
-            }
-        }
-        let (mut at_q, mut at_v) = (0, 0);
-        let joints = self.robot.links.iter().map(|link| {
-            let motion = link.joint.motion;
-            let (nq, nv) = (convention.coordinates(motion), motion.degrees_of_freedom());
-            let (own_q, own_v) = (at_q..at_q + nq, at_v..at_v + nv);
-            (at_q, at_v) = (at_q + nq, at_v + nv);
-            JointSlices {
-                q: &q[own_q],
-                v: &v[own_v.clone()],
-                a: &a[own_v.clone()],
-                tau: &tau[own_v],
-            }
-        });
-        let joints: Vec<_> = joints.collect();
-        self.at(convention, &joints).map_err(|error| match error {
-            AtState::Input(error) => error,
-            AtState::Fault(fault) => DynamicsError::Fault { state: 0, joint: None, fault },
-        })
-    }
-
     /// All algorithms at one state, given joint by joint in the robot's order.
     ///
     /// # Errors

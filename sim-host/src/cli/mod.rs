@@ -5,9 +5,9 @@
 //! is kept; 141 the reader of stdout has gone away.
 
 mod advise;
+mod benchmarks;
 mod certify;
 mod certify_files;
-mod benchmarks;
 mod chart;
 mod controller;
 mod count_steps;

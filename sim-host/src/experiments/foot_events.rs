@@ -70,7 +70,6 @@ mod tests {
             cut_torques: surefoot_sim::closed_loop::CutTorques::default(),
             stop: None,
             estimate: None,
-            note: None,
         }
     }
 

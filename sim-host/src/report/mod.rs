@@ -1,7 +1,7 @@
 //! Pages that need nothing but themselves: the report of a run, with a replay, and the charts.
 
-mod certificate_page;
 mod benchmarks_page;
+mod certificate_page;
 mod charts_page;
 mod mechanism_page;
 mod page;
@@ -11,8 +11,8 @@ mod robot_page;
 mod stability_chapter;
 mod tables;
 
-pub use certificate_page::{CertificateFailure, certificate_page};
 pub use benchmarks_page::{PageError, benchmarks_page};
+pub use certificate_page::{CertificateFailure, certificate_page};
 pub use charts_page::{Chapter, Figure, charts_page};
 pub use mechanism_page::{MechanismReport, mechanism_page};
 pub use page::PageFailure;

@@ -40,7 +40,7 @@ fn firmware(folder: &Path, robot: &str) {
 }
 
 /// A scene ends as it should, and every number of its record is the same on host and target.
-fn is_as_on_the_host(folder: &Path, name: &str, scene: &str, outcome: &str) {
+fn is_as_on_the_host(folder: &Path, name: &str, scene: &str, outcome: &str) -> Value {
     let (host, target) = (format!("{name}-host"), format!("{name}-target"));
     said(folder, &["run", scene, "--scalar", "f32", "--out", &host]);
     let run = ["run", scene, "--controller", "firmware", "--out", &target, "--json"];
@@ -49,10 +49,11 @@ fn is_as_on_the_host(folder: &Path, name: &str, scene: &str, outcome: &str) {
     assert_eq!(document["outcome"], outcome);
     let record = |of: &str| std::fs::read(folder.join(of).join("record.csv")).expect("written");
     assert!(record(&host) == record(&target), "the record of the target is another one");
+    document["target"].clone()
 }
 
-/// It stands, and every number of its record is the host's.
-fn stands(name: &str, file: &str, more: &[&str]) {
+/// It stands, and every number of its record is the host's. What its ticks have cost.
+fn stands(name: &str, file: &str, more: &[&str]) -> Value {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("robots-on-target");
     std::fs::create_dir_all(&folder).expect("a folder below the target directory");
     let file = example_robot(file);
@@ -60,7 +61,7 @@ fn stands(name: &str, file: &str, more: &[&str]) {
     said(&folder, &[&import[..], more].concat());
     firmware(&folder, &format!("{name}/robot.rs"));
     let scene = format!("{name}/stand.toml");
-    is_as_on_the_host(&folder, name, &scene, "balanced");
+    let costs = is_as_on_the_host(&folder, name, &scene, "balanced");
     // The image of this robot is for no other.
     let image = format!("target/firmware/{}/emulation.elf", image_name(&folder, name));
     let image = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(image);
@@ -70,6 +71,7 @@ fn stands(name: &str, file: &str, more: &[&str]) {
     let said = text(&output);
     assert!(!output.status.success(), "{said}");
     assert!(said.contains("biped") && said.contains("`cargo xtask firmware`"), "{said}");
+    costs
 }
 
 /// The robot's name as its robot.rs has it.
@@ -94,7 +96,11 @@ fn talos_on_its_legs_stands_on_the_target() {
 #[test]
 #[ignore = "needs robot files and the target's compiler: `cargo xtask test --only firmware`"]
 fn g1_with_waist_and_arms_stands_on_the_target() {
-    stands("g1", "g1_description/urdf/g1_29dof_rev_1_0.urdf", &[]);
+    let costs = stands("g1", "g1_description/urdf/g1_29dof_rev_1_0.urdf", &[]);
+    let budget = std::env::var("SUREFOOT_G1_INSTRUCTIONS");
+    let budget = budget.expect("`cargo xtask test --only firmware` sets it");
+    let budget: u64 = budget.parse().expect("a number");
+    assert!(costs["max"].as_u64().expect("a number") <= budget, "{costs} > {budget}");
 }
 
 #[test]

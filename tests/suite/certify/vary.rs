@@ -90,7 +90,7 @@ fn what_is_wrong_is_told_with_what_was_expected() {
 #[test]
 fn any_field_varies() {
     for (scene, vary) in [
-        ("stand", "[vary.\"plant.bodies.\\\"central body\\\".added_mass_kg\"]\nuniform = [0, 5]"),
+        ("stand", "[vary.\"plant.bodies.\\\"central body\\\".added_mass_kg\"]\nuniform = [0.1, 5]"),
         ("stand", "[vary.\"terrain.slope_deg\"]\nnormal = [0, 3]\nwithin = [-9, 9]"),
         ("stand", "[vary.\"controller.position_gain\"]\nlog_uniform = [0.5, 2]\nfactor = true"),
         (

@@ -152,7 +152,9 @@ fn doubts_that_stay_stop_the_robot() {
     let after = |pattern: &[Option<Concern>]| {
         let mut watch = EstimateWatch::new();
         let ticks = pattern.iter().cycle().take(1000);
-        ticks.enumerate().find_map(|(n, concern)| Some((n, watch.after(&health(*concern), PERIOD)?)))
+        ticks
+            .enumerate()
+            .find_map(|(n, concern)| Some((n, watch.after(&health(*concern), PERIOD)?)))
     };
     assert_eq!(after(&[None]), None);
     // Half as fast forgotten as learnt.

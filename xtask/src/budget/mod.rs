@@ -33,7 +33,7 @@ pub struct Options {
 /// Limits, from the file.
 #[derive(Clone, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
-struct Budget {
+pub struct Budget {
     tick_instructions: u64,
     spread_percent: f64,
     limited_free_instructions: u64,
@@ -44,6 +44,14 @@ struct Budget {
     flash_bytes: u64,
     ram_bytes: u64,
     panic_paths: usize,
+    filter_instructions: u64,
+    observer_instructions: u64,
+    sensing_stack_bytes: u64,
+    walk_mean_instructions: u64,
+    walk_tick_instructions: u64,
+    walk_stack_bytes: u64,
+    /// Of G1, 29 joints, measured by the tests of robots on the target.
+    pub g1_stand_instructions: u64,
     /// By chip.
     targets: BTreeMap<String, ChipBudget>,
 }
@@ -63,6 +71,28 @@ struct Measured {
     per_stage_big_base: BTreeMap<String, u64>,
     stack_bytes: u64,
     traced_ticks: usize,
+    sensing: Sensing,
+    walk: Walk,
+}
+
+/// Of an image that estimates the state.
+#[derive(Clone, Copy, Deserialize, Serialize)]
+struct Sensing {
+    /// What the filter takes of a tick, mean.
+    filter: f64,
+    /// What the observer takes.
+    observer: f64,
+    /// Of `stand-loaded`, with both.
+    tick: Instructions,
+    stack_bytes: u64,
+}
+
+/// Of an image that walks.
+#[derive(Clone, Copy, Deserialize, Serialize)]
+struct Walk {
+    /// Of `walk`.
+    tick: Instructions,
+    stack_bytes: u64,
 }
 
 /// Instructions of a tick.
@@ -98,6 +128,8 @@ pub struct Report {
     flash_bytes: u64,
     ram_bytes: u64,
     panic_paths: Vec<String>,
+    sensing: Sensing,
+    walk: Walk,
     /// By chip.
     targets: BTreeMap<&'static str, Chip>,
     budget: Budget,
@@ -135,6 +167,14 @@ impl Report {
         check("flash_bytes", self.flash_bytes as f64, budget.flash_bytes as f64);
         check("ram_bytes", self.ram_bytes as f64, budget.ram_bytes as f64);
         check("panic_paths", self.panic_paths.len() as f64, budget.panic_paths as f64);
+        let Sensing { filter, observer, stack_bytes, .. } = self.sensing;
+        check("filter_instructions", filter, budget.filter_instructions as f64);
+        check("observer_instructions", observer, budget.observer_instructions as f64);
+        check("sensing_stack_bytes", stack_bytes as f64, budget.sensing_stack_bytes as f64);
+        let Walk { tick, stack_bytes } = self.walk;
+        check("walk_mean_instructions", tick.mean, budget.walk_mean_instructions as f64);
+        check("walk_tick_instructions", tick.max as f64, budget.walk_tick_instructions as f64);
+        check("walk_stack_bytes", stack_bytes as f64, budget.walk_stack_bytes as f64);
         broken.extend(chips::broken(&self.targets, &budget.targets));
         broken
     }
@@ -145,6 +185,7 @@ pub fn run(options: &Options) -> Result<()> {
     let arm = Toolchain::provide(TARGET)?;
     let robot = Robot::of_the_text()?;
     firmware::build(&arm, &robot)?;
+    firmware::build_variants(&arm)?;
     firmware::build_for_other_chips(&robot)?;
     let report = measure(&arm)?;
     if options.json {
@@ -161,18 +202,21 @@ pub fn run(options: &Options) -> Result<()> {
     }
 }
 
-/// Measures the images that have been built with this compiler.
-pub fn measure(arm: &Toolchain) -> Result<Report> {
-    let machine = format!("{}, netduinoplus2, -icount shift=4", emulator::provide(emulator::ARM)?);
+/// The limits for this compiler.
+pub fn limits(arm: &Toolchain) -> Result<Budget> {
     let path = workspace::root().join("tests/budgets.toml");
     let text = std::fs::read_to_string(&path)
         .with_context(|| format!("cannot read {}", path.display()))?;
     let budgets: BTreeMap<String, Budget> =
         toml::from_str(&text).with_context(|| format!("{}", path.display()))?;
-    let release = arm.release()?;
-    let budget = budgets.get(&release).or_else(|| budgets.get(OTHER));
-    let budget =
-        budget.with_context(|| format!("{} has no table [{OTHER}]", path.display()))?.clone();
+    let budget = budgets.get(&arm.release()?).or_else(|| budgets.get(OTHER));
+    budget.cloned().with_context(|| format!("{} has no table [{OTHER}]", path.display()))
+}
+
+/// Measures the images that have been built with this compiler.
+pub fn measure(arm: &Toolchain) -> Result<Report> {
+    let machine = format!("{}, netduinoplus2, -icount shift=4", emulator::provide(emulator::ARM)?);
+    let (budget, release) = (limits(arm)?, arm.release()?);
 
     let trace = workspace::root().join("target/firmware/trace.log");
     // What the host does between ticks costs the target nothing.
@@ -194,6 +238,12 @@ pub fn measure(arm: &Toolchain) -> Result<Report> {
         "the search for panicking functions is broken: it finds none from the image's start, from \
          where there are some"
     );
+    // None in the tick of any of the images.
+    let mut panic_paths = reachable_panics(&board, "TIM2")?;
+    for robot in firmware::variants()? {
+        let contents = std::fs::read(Variant::Emulation.path(&robot))?;
+        panic_paths.extend(reachable_panics(&image::parse(&contents)?, "TIM2")?);
+    }
     let Instructions { mean, max, .. } = measured.instructions;
     Ok(Report {
         target: TARGET,
@@ -218,7 +268,9 @@ pub fn measure(arm: &Toolchain) -> Result<Report> {
         stack_bytes: measured.stack_bytes,
         flash_bytes: image::flash_bytes(&board),
         ram_bytes: image::ram_bytes(&board),
-        panic_paths: reachable_panics(&board, "TIM2")?,
+        panic_paths,
+        sensing: measured.sensing,
+        walk: measured.walk,
         targets: chips::measure(&robot)?,
         budget,
     })
@@ -282,6 +334,15 @@ pub fn print(report: &Report) {
     for function in &report.panic_paths {
         println!("  {function}");
     }
+    let Sensing { filter, observer, tick, stack_bytes } = &report.sensing;
+    row("filter, mean", format!("{filter:.0}"), budget.filter_instructions.to_string());
+    row("observer, mean", format!("{observer:.0}"), budget.observer_instructions.to_string());
+    row("with both, loaded: slowest tick", tick.max.to_string(), String::new());
+    row("  stack, bytes", stack_bytes.to_string(), budget.sensing_stack_bytes.to_string());
+    let Walk { tick, stack_bytes } = &report.walk;
+    row("walk, mean", format!("{:.1}", tick.mean), budget.walk_mean_instructions.to_string());
+    row("walk, slowest", tick.max.to_string(), budget.walk_tick_instructions.to_string());
+    row("  stack, bytes", stack_bytes.to_string(), budget.walk_stack_bytes.to_string());
     for (title, stages) in
         [("fixed foot", &report.per_stage), ("big base", &report.per_stage_big_base)]
     {

@@ -9,6 +9,7 @@ use anyhow::{Result, bail, ensure};
 pub fn run(arm: &Toolchain) -> Result<String> {
     let robot = firmware::Robot::of_the_text()?;
     firmware::build(arm, &robot)?;
+    firmware::build_variants(arm)?;
     firmware::build_for_other_chips(&robot)?;
     let report = measure(arm)?;
     budget::print(&report);

@@ -8,7 +8,6 @@ mod documented;
 mod firmware;
 mod packages;
 mod panic_free;
-mod python;
 mod record;
 mod robots;
 mod target;
@@ -49,10 +48,6 @@ enum Stage {
     Robots,
     /// The controller as a library for C: a program of C has the core's bits.
     CLibrary,
-    /// The package for Python: runs, steps, dynamics and studies.
-    Python,
-    /// Studies on clusters of Dask and Ray of which a worker is killed; only when named.
-    Clusters,
     /// Features that a scene does not have execute no instruction, on the host.
     Unused,
     /// Core compiles for the target.
@@ -70,7 +65,7 @@ enum Stage {
 impl Options {
     fn wants(&self, stage: Stage) -> bool {
         let on_target = [Stage::Target, Stage::PanicFree, Stage::Firmware, Stage::Budget];
-        let when_named = [Stage::Documented, Stage::Clusters, Stage::Page];
+        let when_named = [Stage::Documented, Stage::Page];
         let is_default = self.only.is_empty() && !when_named.contains(&stage);
         let is_left_out = self.skip_target && on_target.contains(&stage);
         (is_default || self.only.contains(&stage)) && !is_left_out
@@ -100,12 +95,6 @@ pub fn run(options: &Options) -> Result<()> {
     }
     if options.wants(Stage::CLibrary) {
         record.stage("c-library", c_library::run);
-    }
-    if options.wants(Stage::Python) {
-        record.stage("python", python::run);
-    }
-    if options.wants(Stage::Clusters) {
-        record.stage("clusters", python::on_clusters);
     }
     if options.wants(Stage::Unused) {
         // Of the tests' own build, which is minutes quicker than the program as it ships.

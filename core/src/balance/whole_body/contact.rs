@@ -66,9 +66,33 @@ pub(super) struct Place<'a, T> {
 }
 
 impl<T: Real> Contact<T> {
-    /// `None` for numbers that are not finite.
+    /// To be [set](Self::set).
     #[inline(always)]
-    pub fn new(leg: &Leg<T>, place: &Place<'_, T>, asked: &Asked<T>, damping: T) -> Option<Self> {
+    pub fn empty() -> Self {
+        let nothing = [[T::zero(); DIRECTIONS]; MOST_LEG_JOINTS];
+        Self {
+            rotation: Matrix3::zeros(),
+            position: Vector3::zeros(),
+            joints: [0; MOST_LEG_JOINTS],
+            count: 0,
+            inverse: nothing,
+            per_base: [Wrench::zero(); MOST_LEG_JOINTS],
+            columns: nothing,
+            asked: [T::zero(); DIRECTIONS],
+            directions: [false; DIRECTIONS],
+            damping: T::zero(),
+        }
+    }
+
+    /// Of an empty one; `None` for numbers that are not finite.
+    #[inline(always)]
+    pub fn set(
+        &mut self,
+        leg: &Leg<T>,
+        place: &Place<'_, T>,
+        asked: &Asked<T>,
+        damping: T,
+    ) -> Option<()> {
         let Place { central, body, screws } = place;
         let from_body = central.tr_mul(&body.pose.rotation);
         let moments = leg.foot.limits.patch.moments();
@@ -107,38 +131,28 @@ impl<T: Real> Contact<T> {
         for (asked, bias) in asked.iter_mut().zip(&bias) {
             *asked -= *bias;
         }
-        let mut columns = [[T::zero(); DIRECTIONS]; MOST_LEG_JOINTS];
-        let mut scaled = columns;
+        let mut scaled = [[T::zero(); DIRECTIONS]; MOST_LEG_JOINTS];
         let per_reach = T::one() / leg.reach;
         for ((column, scaled), screw) in
-            columns.iter_mut().zip(&mut scaled).zip(screws).take(leg.count)
+            self.columns.iter_mut().zip(&mut scaled).zip(screws).take(leg.count)
         {
             *column = picked(screw.linear + screw.angular.cross(&position), screw.angular);
             let [x, y, z, a, b, c] = *column;
             *scaled = [x * per_reach, y * per_reach, z * per_reach, a, b, c];
         }
         let found = leg_inverse(&scaled, leg.count, &directions, damping)?;
-        let inverse = found
-            .inverse
-            .map(|[x, y, z, a, b, c]| [x * per_reach, y * per_reach, z * per_reach, a, b, c]);
-        let mut contact = Self {
-            rotation,
-            position,
-            joints: leg.joints,
-            count: leg.count,
-            inverse,
-            per_base: [Wrench::zero(); MOST_LEG_JOINTS],
-            columns,
-            asked,
-            directions,
-            damping: found.damping,
-        };
-        for (inverse, row) in contact.inverse.iter().zip(&mut contact.per_base).take(leg.count) {
-            let w = Wrench::from_array(*inverse);
+        let rows = self.inverse.iter_mut().zip(&mut self.per_base).zip(&found.inverse);
+        for ((to, per_base), row) in rows.take(leg.count) {
+            let [x, y, z, a, b, c] = *row;
+            *to = [x * per_reach, y * per_reach, z * per_reach, a, b, c];
+            let w = Wrench::from_array(*to);
             let w = Wrench { force: rotation * w.force, torque: rotation * w.torque };
-            *row = -w.shifted(position);
+            *per_base = -w.shifted(position);
         }
-        Some(contact)
+        (self.rotation, self.position) = (rotation, position);
+        (self.joints, self.count) = (leg.joints, leg.count);
+        (self.asked, self.directions, self.damping) = (asked, directions, found.damping);
+        Some(())
     }
 
     /// `J⁺ (a − b)` of (1) by joint.

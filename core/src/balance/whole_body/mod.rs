@@ -47,7 +47,6 @@ mod tick;
 
 pub(crate) use contact::edge_axes;
 pub use fault::WholeBodyRobotFault;
-pub(crate) use joint_line::{JointLine, joint_line};
 pub use motion::{MotionWeights, whole_body_motion_tick, whole_body_motion_tick_under};
 pub use observed::{ObservedBody, observe};
 pub use program::WholeBodyLimit;

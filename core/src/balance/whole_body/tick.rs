@@ -9,7 +9,9 @@ use super::robot::{MOST_LEG_JOINTS, WholeBody};
 use super::{WholeBodyCommand, WholeBodyMemory, WholeBodySettings, WholeBodyState};
 use crate::Real;
 use crate::balance::{ContactFoot, ContactProgram, Fault, Input, Reference, desired_acceleration};
-use crate::dynamics::{forward_kinematics, inverse_dynamics, joint_poses, mass_matrix};
+use crate::dynamics::{
+    BodyKinematics, forward_kinematics_in, joint_poses, legged_inverse_dynamics, mass_matrix,
+};
 use crate::model::Tree;
 use crate::qp::{Settings, solve};
 use crate::spatial::{Twist, Wrench};
@@ -102,7 +104,8 @@ fn tick_under<T: Real, const N: usize, const NQ: usize, const NV: usize, const F
     positions.iter_mut().take(3).for_each(|x| *x = T::zero());
     let poses = joint_poses(tree, &positions).map_err(|_| Fault::NotUnit(Input::Orientation))?;
     let mut accelerations = posture(robot, settings, state);
-    let kinematics = forward_kinematics(tree, &poses, &state.velocities, &accelerations);
+    let mut kinematics = [BodyKinematics::still(); N];
+    forward_kinematics_in(tree, &poses, &state.velocities, &accelerations, &mut kinematics);
     let screws = screws(tree, robot, &kinematics, &central.rotation);
     let mut pressing = [None; FEET];
     for ((place, leg), touches) in pressing.iter_mut().zip(&robot.legs).zip(contacts) {
@@ -110,17 +113,18 @@ fn tick_under<T: Real, const N: usize, const NQ: usize, const NV: usize, const F
         let body = kinematics.get(leg.foot.body).ok_or(Fault::NotHeld)?;
         let of_leg = leg.joints.map(|joint| screws.get(joint).copied().unwrap_or(Twist::zero()));
         let from = Place { central: &central.rotation, body, screws: of_leg };
-        let contact = Contact::new(leg, &from, &Asked::Rest(settings.rest_rate), settings.damping);
-        let contact = contact.ok_or(Fault::Overflow)?;
+        // Made where it stays: each copy would cost as much as a joint.
+        let (contact, _) = place.insert((Contact::empty(), leg));
+        let asked = Asked::Rest(settings.rest_rate);
+        contact.set(leg, &from, &asked, settings.damping).ok_or(Fault::Overflow)?;
         for (joint, more) in contact.joints.iter().zip(contact.correction()).take(contact.count) {
             if let Some(to) = accelerations.get_mut(*joint) {
                 *to += more;
             }
         }
-        *place = Some((contact, leg));
     }
     let legs = pressing.each_ref().map(|foot| foot.as_ref().map(|(contact, _)| *contact));
-    let mut bias = inverse_dynamics(tree, &poses, &state.velocities, &accelerations, None);
+    let mut bias = legged_inverse_dynamics(tree, &poses, &state.velocities, &accelerations);
     if let Some(external) = external {
         // Of the ground's wrenches this much is made already.
         let (force, torque) =

@@ -62,10 +62,15 @@ impl Estimating {
     ///
     /// # Panics
     /// For a robot without feet on legs, which the scene's check refuses.
-    pub fn new(sensing: &Sensing, period_s: f64, robot: &SharedRobot, place: FilterPlace) -> Self {
+    pub fn new(
+        sensing: &Sensing,
+        period_s: f64,
+        robot: &SharedRobot,
+        (place, walks): (FilterPlace, bool),
+    ) -> Self {
         let feet = Contacts::of(robot).expect("a robot with feet on legs").feet;
         let filter = match place {
-            FilterPlace::Host(scalar) => Some(Filter::new(robot, period_s, scalar)),
+            FilterPlace::Host(scalar) => Some(Filter::new(robot, period_s, scalar, walks)),
             FilterPlace::Target => None,
         };
         Self {

@@ -52,8 +52,9 @@ pub struct Filtered {
 }
 
 /// What sensors and ground are taken to be: floors of scenes yield.
-pub(super) fn noise<T: Real>() -> SensorNoise<T> {
-    SensorNoise { force_direction: T::of(FORCE_DIRECTION), ..SensorNoise::yielding_ground() }
+pub(super) fn noise<T: Real>(walks: bool) -> SensorNoise<T> {
+    let noise = if walks { SensorNoise::walking() } else { SensorNoise::yielding_ground() };
+    SensorNoise { force_direction: T::of(FORCE_DIRECTION), ..noise }
 }
 
 /// The filter in either precision.
@@ -76,18 +77,18 @@ impl Filter {
     ///
     /// # Panics
     /// For a robot without feet on legs, which the scene's check refuses.
-    pub fn new(robot: &SharedRobot, period_s: f64, scalar: Scalar) -> Self {
+    pub fn new(robot: &SharedRobot, period_s: f64, scalar: Scalar, walks: bool) -> Self {
         let feet = Contacts::of(robot).expect("a robot with feet on legs").feet;
         let gravity = robot.tree.gravity().norm();
         match scalar {
             Scalar::F32 => {
                 let kinematics =
                     with_tree!(&robot.tree, tree => Kinematics::of(tree.to_f32(), feet));
-                Self::F32(FilterIn::new(kinematics, feet, period_s, gravity))
+                Self::F32(FilterIn::new(kinematics, feet, (period_s, gravity), noise(walks)))
             }
             Scalar::F64 => {
                 let kinematics = with_tree!(&robot.tree, tree => Kinematics::of(*tree, feet));
-                Self::F64(FilterIn::new(kinematics, feet, period_s, gravity))
+                Self::F64(FilterIn::new(kinematics, feet, (period_s, gravity), noise(walks)))
             }
         }
     }
@@ -113,12 +114,12 @@ impl<T: Real> FilterIn<T> {
     fn new(
         kinematics: Kinematics<T>,
         feet: [Option<WholeBodyFoot<f64>>; FEET],
-        period_s: f64,
-        gravity: f64,
+        (period_s, gravity): (f64, f64),
+        noise: SensorNoise<T>,
     ) -> Self {
         let kinds = feet.map(|foot| foot.as_ref().map(FootKind::of));
         let settings = Estimator::new(T::of(period_s), T::of(gravity), kinds);
-        Self { settings: Estimator { noise: noise(), ..settings }, kinematics, state: None }
+        Self { settings: Estimator { noise, ..settings }, kinematics, state: None }
     }
 
     fn step(

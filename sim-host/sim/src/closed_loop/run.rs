@@ -187,7 +187,7 @@ fn advance(
         &scene.sensing,
         steps_per_tick as f64 * step,
         &robot,
-        controller.filter_place(),
+        (controller.filter_place(), !scene.walk.is_empty()),
     );
     let mut motors = Motors::new(&scene.acting, step, steps_per_tick as usize, joints);
     let (mut first, mut noted) = (0, 0);

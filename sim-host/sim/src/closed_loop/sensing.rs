@@ -45,7 +45,8 @@ impl Sensors {
         }
     }
 
-    /// The same of a robot, with its state estimator, in its place, where the scene has one.
+    /// The same of a robot, with its state estimator, in its place and for a robot that walks or not, where the scene
+    /// has one.
     ///
     /// # Panics
     /// For a scene that is not checked.
@@ -53,10 +54,10 @@ impl Sensors {
         sensing: &Sensing,
         period_s: f64,
         robot: &SharedRobot,
-        place: FilterPlace,
+        (place, walks): (FilterPlace, bool),
     ) -> Self {
         let is_estimated = sensing.state == StateSource::Estimate;
-        let estimating = || Box::new(Estimating::new(sensing, period_s, robot, place));
+        let estimating = || Box::new(Estimating::new(sensing, period_s, robot, (place, walks)));
         Self {
             estimating: is_estimated.then(estimating),
             ..Self::new(sensing, period_s, &robot.columns)

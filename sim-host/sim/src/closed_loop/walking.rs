@@ -201,7 +201,10 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
             (center.x, center.y) = (center.x + d.x, center.y + d.y);
             carrying.wrench(memory.heading)
         });
-        ground[1] = lower_foot(&planner.stature, &motion);
+        // In a flight no foot tells where the ground is.
+        if planner.planned(memory).contains(&true) {
+            ground[1] = lower_foot(&planner.stature, &motion);
+        }
         let task = planner.plan(memory, &motion, forces, &asked, *period)?;
         let mut command =
             whole_body_motion_tick_under(&controller, &observed, &task.motion, external, rows)?;
@@ -225,10 +228,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Walker<T, N, NQ,
 
     /// Which feet the plan has on the ground.
     fn planned(&self) -> [bool; MOST_LEGS] {
-        match &self.memory.phase {
-            Phase::Single { swing, .. } => swing.each_ref().map(Option::is_none),
-            _ => [true; MOST_LEGS],
-        }
+        self.planner.planned(&self.memory)
     }
 }
 

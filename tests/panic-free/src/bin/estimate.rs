@@ -4,9 +4,12 @@
 
 use core::hint::black_box;
 use nalgebra::Vector3;
+use surefoot::balance::{ContactLimits, ContactPatch, WholeBodyFoot};
 use surefoot::estimate::{
     Estimator, EstimatorState, Floor, FootKind, FootReading, ImuReading, Readings, StartPose, Turn,
+    foot_poses,
 };
+use surefoot::model::robots::biped;
 use surefoot::spatial::Quaternion;
 
 /// A start and a step of which the optimiser knows nothing but the number of feet.
@@ -36,9 +39,32 @@ fn opaque_estimate<const FEET: usize>() {
     black_box((report.is_ok(), state.deviations(), state));
 }
 
+/// Where feet of any bodies are, by encoders that read anything.
+#[inline(always)]
+fn opaque_feet() {
+    let patch = black_box(ContactPatch::sole([-0.2, 0.05], [-0.05, 0.05], -0.06));
+    let limits = ContactLimits {
+        least_force: 5.0,
+        greatest_force: 2000.0,
+        friction: 0.24,
+        patch,
+        torques: [],
+    };
+    let foot = |body| WholeBodyFoot {
+        body,
+        reference: Vector3::zeros(),
+        axes: Quaternion::identity(),
+        limits,
+    };
+    let feet = black_box([Some(foot(6)), Some(foot(usize::MAX)), None, Some(foot(12))]);
+    let tree = black_box(&biped::TREE_F32);
+    black_box(foot_poses(tree, &feet, &black_box([0.1; 19])));
+}
+
 #[cfg_attr(target_os = "none", cortex_m_rt::entry)]
 fn main() -> ! {
     opaque_estimate::<2>();
     opaque_estimate::<4>();
+    opaque_feet();
     panic_free::halt()
 }

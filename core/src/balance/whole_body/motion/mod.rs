@@ -28,10 +28,9 @@
 //! it ([`LinearTask`](super::LinearTask)), each taken at its foot's own height.
 //!
 //! # Cost
-//! The biped in f32, instructions of a Cortex-M4F (and of x86): [`observe`](super::observe) 28 000
-//! (20 900), the planner's view of it 1 400 (1 300), the tick 41 000 to 44 000 (30 400) while no limit is in
-//! force, and about 5 800 (4 600) for each that comes or goes. Stack of the tick 12.3 KB beside an
-//! [`ObservedBody`](super::ObservedBody) of 3.5 KB.
+//! The biped on two feet in f32, instructions of a Cortex-M4F: to [observe](super::ObservedBody::observe) 22 400, the
+//! planner's view of it 1 400, the tick 35 300 to 36 100 while no limit is in force, and about 4 800 for each that comes
+//! or goes. An [`ObservedBody`](super::ObservedBody) has 3.5 KB.
 //!
 //! # Accuracy
 //! In f32, of 800 harsh states of the biped, a third of them with limits in force: torques within 0.03 N·m

@@ -201,9 +201,10 @@ impl<T: Real, const FEET: usize, const NV: usize> Program<T> for MotionProgram<'
         }
         if let Some(ranges) = self.ranges {
             ranges.slacks(self.dynamics, &moved, |foot, joint, slacks| {
-                let first = first_row(foot) + CONTACT_ROWS + 2 * joint as u8;
+                let own = CONTACT_ROWS.wrapping_add((joint as u8).wrapping_mul(2));
+                let first = first_row(foot).wrapping_add(own);
                 search.offer(first, slacks[0]);
-                search.offer(first + 1, slacks[1]);
+                search.offer(first.wrapping_add(1), slacks[1]);
             });
         }
     }

@@ -15,7 +15,7 @@ use super::program::MotionProgram;
 use super::range::ranges;
 use crate::Real;
 use crate::balance::{ContactLimits, Fault, Input};
-use crate::dynamics::inverse_dynamics;
+use crate::dynamics::legged_inverse_dynamics;
 use crate::qp::{Settings, solve};
 use crate::spatial::{Quaternion, Twist, Wrench};
 use nalgebra::Vector3;
@@ -96,7 +96,7 @@ fn motion_tick_under<
     let mut feet = [None; FEET];
     set_feet(controller, observed, task, &mut accelerations, &mut feet)?;
     let ranges = ranges(robot, settings, state, &accelerations);
-    let mut bias = inverse_dynamics(tree, poses, &state.velocities, &accelerations, None);
+    let mut bias = legged_inverse_dynamics(tree, poses, &state.velocities, &accelerations);
     let mut gravity = tree.gravity;
     if let Some(external) = external {
         // Of the ground's wrenches this much is made already; the whole falls as if gravity were so much more.
@@ -213,13 +213,16 @@ fn set_feet<T: Real, const N: usize, const NQ: usize, const NV: usize, const FEE
                 Asked::Move { linear: *linear, angular: *angular }
             }
         };
-        let contact = Contact::new(leg, &from, &asked, settings.damping).ok_or(Fault::Overflow)?;
+        // Made where it stays: each copy would cost as much as a joint.
+        let foot =
+            place.insert(MotionFoot { contact: Contact::empty(), limits: limits(leg, task) });
+        let contact = &mut foot.contact;
+        contact.set(leg, &from, &asked, settings.damping).ok_or(Fault::Overflow)?;
         for (joint, more) in contact.joints.iter().zip(contact.correction()).take(contact.count) {
             if let Some(to) = accelerations.get_mut(*joint) {
                 *to += more;
             }
         }
-        *place = Some(MotionFoot { contact, limits: limits(leg, task) });
     }
     Ok(())
 }

@@ -13,6 +13,7 @@ use surefoot_link::{
 pub(super) struct Sensing {
     period: f32,
     gravity: f32,
+    walks: bool,
     /// At the next tick, and where the robot was at the first.
     readings: Option<(SensorReadings, StartPose<f64>)>,
     /// Whether the target has its filter.
@@ -30,6 +31,7 @@ impl Sensing {
         Self {
             period: period as f32,
             gravity: scene.robot().tree.gravity().norm() as f32,
+            walks: !scene.walk.is_empty(),
             readings: None,
             is_told: false,
             is_armed: false,
@@ -55,7 +57,7 @@ impl Sensing {
         let settings = FilterSettings {
             period: self.period,
             gravity: self.gravity,
-            noise: noise(),
+            noise: noise(self.walks),
             imu_position: [0.0; 3],
             imu_orientation: [1.0, 0.0, 0.0, 0.0],
             feet: start.feet.map(|x| x as f32).into(),
