@@ -53,7 +53,8 @@ impl Live {
         let mut plant = plant(&scene).map_err(|failure| failure.to_string())?;
         let state = plant.state().map_err(|failure| failure.to_string())?;
         let controller = controller(&scene, Scalar::F32);
-        let (tick_s, place) = (steps_per_tick as f64 * step, controller.filter_place());
+        let tick_s = steps_per_tick as f64 * step;
+        let place = (controller.filter_place(), !scene.walk.is_empty());
         Ok(Self {
             sensors: Sensors::of_robot(&scene.sensing, tick_s, &robot, place),
             controller,
