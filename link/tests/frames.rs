@@ -180,7 +180,6 @@ fn torques<const N: usize>() -> Torques<N> {
         }),
         cost: u32::MAX,
         latency: u32::MAX,
-        estimated: None,
     }
 }
 
@@ -499,7 +498,6 @@ fn frames_of_a_tick_are_short() {
         estimated: None,
         cost: 20_721,
         latency: 28,
-        estimated: None,
     };
     let received = frame(&mut sender(), &FromTarget::Torques(answer)).len();
     assert_eq!((sent, received), (168, 97));
