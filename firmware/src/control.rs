@@ -22,7 +22,7 @@ pub const PERIOD: f32 = 1e-3;
 
 /// What the application asks of the next tick.
 #[cfg_attr(
-    whole_body,
+    any(whole_body, estimates),
     expect(clippy::large_enum_variant, reason = "there is no heap for the largest")
 )]
 pub enum Order {

@@ -121,8 +121,17 @@ fn limited(stack: &mut u32) -> Result<[Vec<u32>; 2], Box<dyn Error>> {
     Ok(costs)
 }
 
-/// Costs of a scene's ticks on an image, the first left out, with those in which no limit bound, and the stack.
-fn played(scene: &Scene, image: &Path) -> Result<(Vec<u32>, Vec<u32>, u32), Box<dyn Error>> {
+/// Costs of a scene's ticks, the first left out.
+struct Played {
+    all: Vec<u32>,
+    /// Of those in which no limit bound.
+    free: Vec<u32>,
+    /// Of the image, bytes.
+    stack: u32,
+}
+
+/// Plays a scene on an image.
+fn played(scene: &Scene, image: &Path) -> Result<Played, Box<dyn Error>> {
     let emulator = Emulator::start_with(image, &std::env::temp_dir(), &[])?;
     let mut controller = FirmwareController::<JOINTS>::new(Target::connect(emulator)?, scene)?;
     let run = closed_loop::run(scene, &mut controller, &mut |_| {});
@@ -132,7 +141,7 @@ fn played(scene: &Scene, image: &Path) -> Result<(Vec<u32>, Vec<u32>, u32), Box<
     let all = controller.tick_costs()[1..].to_vec();
     let ticks = all.iter().zip(&controller.limited_ticks()[1..]);
     let free = ticks.filter(|(_, is_limited)| !**is_limited).map(|(cost, _)| *cost).collect();
-    Ok((all, free, controller.target().status()?.stack_bytes))
+    Ok(Played { all, free, stack: controller.target().status()?.stack_bytes })
 }
 
 fn mean(costs: &[u32]) -> f64 {
@@ -153,7 +162,7 @@ fn sensing() -> Result<Value, Box<dyn Error>> {
     };
     let free = |state, disturbance| {
         eprintln!("  stand, state {state:?}, disturbances {disturbance:?}, on the target");
-        let (_, free, _) = played(&scene(state, disturbance)?, &image)?;
+        let Played { free, .. } = played(&scene(state, disturbance)?, &image)?;
         // From half a second on all have come to rest.
         Ok::<_, Box<dyn Error>>(mean(&free[free.len() / 2..]))
     };
@@ -161,7 +170,7 @@ fn sensing() -> Result<Value, Box<dyn Error>> {
     let filter = free(StateSource::Estimate, Disturbance::Ignored)? - plain;
     let observer = free(StateSource::Truth, Disturbance::Observed)? - plain;
     eprintln!("  stand-loaded with filter and observer on the target");
-    let (all, _, stack) = played(&Scene { duration_s: 4.0, ..loaded }, &image)?;
+    let Played { all, stack, .. } = played(&Scene { duration_s: 4.0, ..loaded }, &image)?;
     Ok(json!({
         "filter": filter, "observer": observer, "tick": spread(&all), "stack_bytes": stack,
     }))
@@ -171,7 +180,7 @@ fn sensing() -> Result<Value, Box<dyn Error>> {
 fn walk() -> Result<Value, Box<dyn Error>> {
     let scene = load("walk")?;
     eprintln!("  walk with planner and controller on the target");
-    let (all, _, stack) = played(&scene, &image_for(&scene)?)?;
+    let Played { all, stack, .. } = played(&scene, &image_for(&scene)?)?;
     Ok(json!({ "tick": spread(&all), "stack_bytes": stack }))
 }
 

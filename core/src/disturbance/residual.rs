@@ -95,7 +95,7 @@ impl<T: Real, const N: usize, const NQ: usize, const NV: usize> Residual<T, N, N
         torques: &[T; NV],
     ) -> Result<Option<ResidualReading<T, N, NV>>, DynamicsFault> {
         let is_read = self.advance(tree, state, torques)?;
-        Ok(is_read.then(|| ResidualReading { r: self.r, frames: self.frames }))
+        Ok(is_read.then_some(ResidualReading { r: self.r, frames: self.frames }))
     }
 
     /// The same in place: whether it was not the first tick.

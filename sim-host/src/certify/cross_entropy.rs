@@ -119,6 +119,9 @@ impl Proposal {
     }
 }
 
+/// What runs samples, given with the number of the first, and tells the reserve of each.
+pub type Batches<'a, E> = dyn FnMut(usize, &[Vec<f64>]) -> Result<Vec<f64>, E> + 'a;
+
 /// Searches. `reserves` runs samples, given with the number of the first, and tells the reserve of each.
 ///
 /// # Errors
@@ -127,7 +130,7 @@ pub fn search<E>(
     dimensions: usize,
     effort: &Effort,
     (seed, confidence): (u64, f64),
-    reserves: &mut dyn FnMut(usize, &[Vec<f64>]) -> Result<Vec<f64>, E>,
+    reserves: &mut Batches<'_, E>,
 ) -> Result<Found, E> {
     let mut proposal = Proposal::given(dimensions);
     let (mut rounds, mut failures, mut runs) = (Vec::new(), Vec::new(), 0);

@@ -29,7 +29,7 @@ pub use certificate::{
     Certificate, Deciding, MarginSummary, Mode, Nearest, Searched, Share, TargetRuns, Varied,
     nearest, percent,
 };
-pub use cross_entropy::{Effort, Found, FoundFailure, Proposal, Round, in_cube, search};
+pub use cross_entropy::{Batches, Effort, Found, FoundFailure, Proposal, Round, in_cube, search};
 pub use distribution::Distribution;
 pub use margins::{CARRIES, MARGINS, Margins};
 pub use normal::{ordinary, quantile};

@@ -72,19 +72,38 @@ pub struct VaryError {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Entry {
+    #[serde(default, deserialize_with = "two")]
     uniform: Option<[f64; 2]>,
+    #[serde(default, deserialize_with = "two")]
     log_uniform: Option<[f64; 2]>,
+    #[serde(default, deserialize_with = "two")]
     normal: Option<[f64; 2]>,
+    #[serde(default, deserialize_with = "two")]
     integers: Option<[i64; 2]>,
     set: Option<Vec<Value>>,
     direction: Option<Directions>,
+    #[serde(default, deserialize_with = "two")]
     time: Option<[f64; 2]>,
     seed: Option<bool>,
+    #[serde(default, deserialize_with = "two")]
     within: Option<[f64; 2]>,
+    #[serde(default, deserialize_with = "two")]
     length: Option<[f64; 2]>,
     #[serde(default)]
     factor: bool,
     fields: Option<Vec<String>>,
+}
+
+/// Two numbers. An array of serde's takes the first two of any list.
+fn two<'de, T, D>(list: D) -> Result<Option<[T; 2]>, D::Error>
+where
+    T: Deserialize<'de>,
+    D: serde::Deserializer<'de>,
+{
+    let numbers = Vec::<T>::deserialize(list)?;
+    let found = numbers.len();
+    let expected = || serde::de::Error::custom(format_args!("{found} numbers; expected two"));
+    <[T; 2]>::try_from(numbers).map(Some).map_err(|_| expected())
 }
 
 #[derive(Clone, Copy, PartialEq, Deserialize)]

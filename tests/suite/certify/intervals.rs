@@ -1,5 +1,8 @@
 //! Intervals: against SciPy, and how often they contain what they should.
 
+// Numbers as SciPy prints them.
+#![allow(clippy::excessive_precision)]
+
 use surefoot_host::certify::{
     Effort, Interval, Sampling, clopper_pearson, ordinary, point, quantile, search,
     weighted_interval,

@@ -28,6 +28,8 @@ fn what_is_wrong_is_told_with_what_was_expected() {
             "uniform = [3, 2]: expected a smaller number, then a larger one",
         ),
         ("[vary.\"block.mass_kg\"]\nuniform = [nan, 2]", "expected a smaller number"),
+        ("[vary.\"block.mass_kg\"]\nuniform = [1, 2, 3]", "3 numbers; expected two"),
+        ("[vary.\"block.mass_kg\"]\nintegers = [1]", "1 numbers; expected two"),
         ("[vary.\"block.mass_kg\"]\nlog_uniform = [0, 2]", "expected numbers above 0"),
         (
             "[vary.\"block.mass_kg\"]\nnormal = [2, 0]",

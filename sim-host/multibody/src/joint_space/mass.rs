@@ -23,7 +23,8 @@ impl Mass {
     ) -> Result<Self, usize> {
         let n = now.dofs.len();
         let mut m = vec![0.0; n * n];
-        let mut moved: Vec<(usize, Vector3<f64>, Vector3<f64>, Vector3<f64>)> = Vec::new();
+        // Degrees of freedom that move a body: momentum and angular momentum for a unit rate, and the axis.
+        let mut moved = Vec::<(usize, [Vector3<f64>; 3])>::new();
         for (k, (link, body)) in system.links().iter().zip(&now.bodies).enumerate() {
             let inertia = Vector3::from(link.body.inertia);
             moved.clear();
@@ -31,10 +32,10 @@ impl Mass {
                 let dof = &now.dofs[i];
                 let own = body.turn.conjugate().rotate(dof.angular);
                 let spin = body.turn.rotate(inertia.component_mul(&own));
-                (i, dof.velocity_of(&body.center) * link.body.mass, spin, dof.angular)
+                (i, [dof.velocity_of(&body.center) * link.body.mass, spin, dof.angular])
             }));
-            for (at, (i, momentum, spin, _)) in moved.iter().enumerate() {
-                for (j, _, _, angular) in &moved[at..] {
+            for (at, (i, [momentum, spin, _])) in moved.iter().enumerate() {
+                for (j, [_, _, angular]) in &moved[at..] {
                     let velocity = now.dofs[*j].velocity_of(&body.center);
                     m[i * n + j] += momentum.dot(&velocity) + spin.dot(angular);
                 }

@@ -59,6 +59,7 @@ pub(super) fn noise<T: Real>(walks: bool) -> SensorNoise<T> {
 
 /// The filter in either precision.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "a run has one")]
 pub(super) enum Filter {
     F32(FilterIn<f32>),
     F64(FilterIn<f64>),
@@ -170,7 +171,10 @@ impl<T: Real> FilterIn<T> {
 
 /// Where the feet are in the central body's frame, by the joints' angles.
 #[derive(Clone)]
-struct Kinematics<T>(Arc<dyn Fn(&[f64]) -> [FootPose<T>; FEET] + Send + Sync>);
+struct Kinematics<T>(Arc<FeetAtAngles<T>>);
+
+/// Poses of the feet in the central body's frame, of the joints' angles.
+type FeetAtAngles<T> = dyn Fn(&[f64]) -> [FootPose<T>; FEET] + Send + Sync;
 
 impl<T: Real> Kinematics<T> {
     fn of<const N: usize, const NQ: usize, const NV: usize>(
