@@ -22,7 +22,7 @@ pub const fn wire_us(bytes: u32, baud: u32) -> u32 {
 }
 
 /// Shortest period, µs, in which the line can carry one measurement of so many joints and forces a tick. Torques go
-/// the other way and are shorter.
+/// the other way, and fit into the period with an estimate too.
 ///
 /// A measurement of twelve joints and no force takes 174 bytes at most: 580 µs at 3 Mbaud, so 725 µs.
 pub fn shortest_period_us<const JOINTS: usize>(baud: u32, forces: usize) -> u32 {

@@ -242,7 +242,8 @@ fn all_fit<const N: usize>() {
     }
     // Where settings are the longest, frames are no longer than they need to be.
     assert!(settings < 512 || frame_bytes(N) - settings <= 4, "{settings}");
-    assert!(torques <= sensors, "{torques} and {sensors}: the line is one for both");
+    // Measurements take four fifths of their direction in the shortest period; answers may take all of theirs.
+    assert!(4 * torques <= 5 * sensors, "{torques} and {sensors}");
 }
 
 #[test]
@@ -500,7 +501,7 @@ fn frames_of_a_tick_are_short() {
         latency: 28,
     };
     let received = frame(&mut sender(), &FromTarget::Torques(answer)).len();
-    assert_eq!((sent, received), (168, 97));
+    assert_eq!((sent, received), (168, 98));
 }
 
 /// The line's arithmetic, as docs/firmware.md has it.

@@ -72,7 +72,7 @@ fn what_is_wrong_is_told_with_what_was_expected() {
         ),
         (
             "[scene]\n\"block.mass\" = 1.0\n[vary.\"block.mass_kg\"]\nuniform = [1, 2]",
-            "scene: block: unknown field `mass`",
+            "scene: block.mass: unknown field `mass`",
         ),
         ("[vary.x]\nfields = []\nuniform = [1, 2]", "expected at least one path"),
         (

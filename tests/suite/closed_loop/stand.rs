@@ -1,6 +1,7 @@
 //! The biped that stands within limits, pushed for a tenth of a second.
 
 use surefoot_sim::closed_loop::{self, Outcome, Run, Scalar, bare_controller, controller};
+use surefoot_sim::record::Sample;
 use surefoot_sim::scene::{Distribution, Push, Scene, load};
 
 /// Directions, from backwards to the right side to forwards, with the largest impulse that is survived
@@ -67,7 +68,9 @@ fn standing_is_as_with_the_printed_split() {
     scene.controller.distribution = Distribution::LeastNorm;
     let printed = play(&scene, Scalar::F64);
     assert_eq!(printed.limits, None);
-    assert_eq!(limited.samples, printed.samples);
+    // What the limits say of a tick is all that differs.
+    let samples = limited.samples.into_iter().map(|sample| Sample { note: None, ..sample });
+    assert!(samples.eq(printed.samples));
 }
 
 /// The printed split topples at a seventh of the side's limit.

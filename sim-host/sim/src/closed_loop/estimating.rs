@@ -53,6 +53,7 @@ pub(super) struct Estimating {
     ticks: u64,
     tally: EstimateTally,
     watch: EstimateWatch<f64>,
+    walks: bool,
     /// What it is not believed any more for.
     distrusted: Option<Concern>,
 }
@@ -85,6 +86,7 @@ impl Estimating {
             ticks: 0,
             tally: EstimateTally::default(),
             watch: EstimateWatch::new(),
+            walks,
             distrusted: None,
             robot: robot.clone(),
         }
@@ -162,7 +164,11 @@ impl Estimating {
         self.ticks += 1;
         self.tally.feet_made_anew += filtered.made_anew;
         let health = Health { worst: filtered.worst, count: u8::from(filtered.worst.is_some()) };
-        let distrusted = self.watch.after(&health, self.period_s);
+        // A push lifts a foot of a robot that stands: no switch has lied then.
+        let is_lifted = !self.walks
+            && filtered.worst.is_some_and(|worst| matches!(worst.concern, Concern::Switch(_)));
+        let distrusted =
+            if is_lifted { None } else { self.watch.after(&health, self.period_s) };
         self.distrusted = self.distrusted.or(distrusted);
         if let Some(worst) = filtered.worst {
             self.tally.doubtful_ticks += 1;
