@@ -145,10 +145,11 @@ fn wrench<T: Real, const N: usize, const NQ: usize, const NV: usize, const FEET:
 /// A joint's axis in the sense in which its coordinate counts.
 #[inline(always)]
 fn along<T: Real>(node: &Node<T>, frame: &Pose<T>, axis: Axis) -> Vector3<T> {
-    let along: Vector3<T> = match axis {
-        Axis::X => frame.rotation.column(0).into(),
-        Axis::Y => frame.rotation.column(1).into(),
-        Axis::Z => frame.rotation.column(2).into(),
+    let [[xx, yx, zx], [xy, yy, zy], [xz, yz, zz]] = frame.rotation.into();
+    let along = match axis {
+        Axis::X => Vector3::new(xx, yx, zx),
+        Axis::Y => Vector3::new(xy, yy, zy),
+        Axis::Z => Vector3::new(xz, yz, zz),
     };
     if node.is_reversed { -along } else { along }
 }

@@ -56,7 +56,7 @@ pub(crate) fn floating_inverse_dynamics<
     let base = Motion { omega, omega_dot, a, k: point_acceleration(omega, omega_dot) };
     let mut motions = [base; N];
     let mut wrenches = [Wrench::zero(); N];
-    wrenches[0] = inertial_wrench(root, &base);
+    *wrenches.first_mut()? = inertial_wrench(root, &base);
     for (k, (node, angle)) in tree.nodes.iter().zip(&poses.turns).enumerate().skip(1) {
         let inboard = node.inboard?;
         let JointKind::Revolute(axis) = &node.kind else { return None };
@@ -101,14 +101,14 @@ pub(crate) fn floating_inverse_dynamics<
             *frames.get_mut(k)? = Pose { rotation, position };
         }
         let motion = Motion { omega, omega_dot, a, k: point_acceleration(omega, omega_dot) };
-        wrenches[k] = inertial_wrench(node, &motion);
-        motions[k] = motion;
+        *wrenches.get_mut(k)? = inertial_wrench(node, &motion);
+        *motions.get_mut(k)? = motion;
     }
     for (k, (node, angle)) in tree.nodes.iter().zip(&poses.turns).enumerate().skip(1).rev() {
         let (JointKind::Revolute(axis), Some(inboard)) = (&node.kind, node.inboard) else {
             return None;
         };
-        let Wrench { mut force, torque: mut moment } = wrenches[k];
+        let Wrench { mut force, torque: mut moment } = *wrenches.get(k)?;
         *torques.get_mut(node.velocity_start)? = moment[*axis as usize % 3];
         if let Some(home) = &node.home_rotation {
             let rotation = about(*axis, *angle).compose(home);
@@ -125,7 +125,7 @@ pub(crate) fn floating_inverse_dynamics<
         }
         *wrenches.get_mut(inboard)? += Wrench { force, torque: moment };
     }
-    for (to, x) in torques.iter_mut().zip(wrenches[0].to_array()) {
+    for (to, x) in torques.iter_mut().zip(wrenches.first()?.to_array()) {
         *to = x;
     }
     Some(())

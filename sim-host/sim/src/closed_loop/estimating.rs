@@ -167,8 +167,7 @@ impl Estimating {
         // A push lifts a foot of a robot that stands: no switch has lied then.
         let is_lifted = !self.walks
             && filtered.worst.is_some_and(|worst| matches!(worst.concern, Concern::Switch(_)));
-        let distrusted =
-            if is_lifted { None } else { self.watch.after(&health, self.period_s) };
+        let distrusted = if is_lifted { None } else { self.watch.after(&health, self.period_s) };
         self.distrusted = self.distrusted.or(distrusted);
         if let Some(worst) = filtered.worst {
             self.tally.doubtful_ticks += 1;
