@@ -6,7 +6,9 @@ use surefoot::balance::StopReason;
 use surefoot_sim::closed_loop::firmware::{
     Emulator, FirmwareController, Machine, Target, image_for,
 };
-use surefoot_sim::closed_loop::{self, Commanded, ControlFailure, Controller, Outcome, Scalar};
+use surefoot_sim::closed_loop::{
+    self, Commanded, ControlFailure, Controller, LimitTally, Outcome, Scalar,
+};
 use surefoot_sim::plant::PlantState;
 use surefoot_sim::scene::{Push, Scene, load};
 
@@ -91,7 +93,9 @@ fn play(machine: &Machine, scene: &Scene) -> Result<Played, Box<dyn std::error::
     if run.outcome != Outcome::Balanced {
         return Err(format!("{}: {:?} {:?}", machine.core(), run.outcome, run.failure).into());
     }
-    let limits = (twins.host.limits(), twins.target.limits());
+    let [host, target] =
+        [twins.host.limits(), twins.target.limits()].map(|limits| limits.map(LimitTally::over_all));
+    let limits = (host, target);
     Ok(Played {
         costs: twins.target.tick_costs().get(1..).unwrap_or_default().to_vec(),
         stack_bytes: twins.target.target().status()?.stack_bytes,

@@ -3,7 +3,7 @@
 use crate::bench::{JOINTS, Torques, target};
 use surefoot::balance::StopReason;
 use surefoot_sim::closed_loop::firmware::{Emulator, FirmwareController, Target, image_for};
-use surefoot_sim::closed_loop::{self, Commanded, ControlFailure, Controller, Scalar};
+use surefoot_sim::closed_loop::{self, Commanded, ControlFailure, Controller, LimitTally, Scalar};
 use surefoot_sim::plant::PlantState;
 use surefoot_sim::scene::{Feet, Outline, Push, Scene, load};
 
@@ -90,7 +90,8 @@ fn limited_ticks_are_the_same_to_the_last_bit() {
         let host = closed_loop::controller(&scene, Scalar::F32);
         let mut twins = Twins { target, host, compared: 0 };
         let run = closed_loop::run(&scene, &mut twins, &mut |_| {});
-        let (host, target) = (twins.host.limits(), twins.target.limits());
+        let [host, target] = [twins.host.limits(), twins.target.limits()]
+            .map(|limits| limits.map(LimitTally::over_all));
         assert_eq!(host, target);
         let limits = target.expect("a limited distribution");
         let slowest = twins.target.tick_costs().iter().max();

@@ -164,10 +164,8 @@ impl Estimating {
         self.ticks += 1;
         self.tally.feet_made_anew += filtered.made_anew;
         let health = Health { worst: filtered.worst, count: u8::from(filtered.worst.is_some()) };
-        // A push lifts a foot of a robot that stands: no switch has lied then.
-        let is_lifted = !self.walks
-            && filtered.worst.is_some_and(|worst| matches!(worst.concern, Concern::Switch(_)));
-        let distrusted = if is_lifted { None } else { self.watch.after(&health, self.period_s) };
+        // Of a robot that stands doubts are counted alone: a strike, and a push that lifts a foot, raise some too.
+        let distrusted = if self.walks { self.watch.after(&health, self.period_s) } else { None };
         self.distrusted = self.distrusted.or(distrusted);
         if let Some(worst) = filtered.worst {
             self.tally.doubtful_ticks += 1;

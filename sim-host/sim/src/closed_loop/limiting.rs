@@ -65,6 +65,12 @@ pub struct WorstLimit {
 }
 
 impl LimitTally {
+    /// The same without what is known of the last tick alone, which a target does not tell whole.
+    pub fn over_all(mut self) -> Self {
+        self.last = TickNote::default();
+        self
+    }
+
     /// Another tick.
     pub(super) fn count(&mut self, is_limited: bool, is_unfinished: bool) {
         self.ticks += 1;
