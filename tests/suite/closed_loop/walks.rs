@@ -51,7 +51,9 @@ fn a_walk_on_ice_ends_with_the_supervisor() {
 
 #[test]
 fn the_biped_runs_with_flight_and_stands_again() {
-    let run = play(&load("run").expect("built in"), Scalar::F32);
+    let mut scene = load("run").expect("built in");
+    scene.duration_s = 13.0;
+    let run = play(&scene, Scalar::F32);
     assert_eq!(run.failure, None);
     let gait = run.gait.expect("a run");
     let flight = gait.flight.expect("flights");
@@ -59,7 +61,8 @@ fn the_biped_runs_with_flight_and_stands_again() {
     // 1.332: it overshoots the 1.2 that are asked for.
     assert!(gait.falls == 0 && (speed(&run, 4.5, 7.9) - 1.332).abs() < 0.1);
     assert!(flight.count >= 15 && flight.share > 0.1);
-    assert!(speed(&run, 9.5, 10.0).abs() < 0.03);
+    // 0.001: it slows down by 0.49 m/s², and steps until it stands.
+    assert!(speed(&run, 12.5, 13.0).abs() < 0.01);
 }
 
 #[test]
