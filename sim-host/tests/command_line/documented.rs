@@ -97,7 +97,7 @@ fn arguments(command: &str) -> Option<Vec<&str>> {
 fn every_command_in_the_documents_runs() {
     let folder = folder("documented");
     // Scenes that the documents speak of.
-    let own = include_str!("../../sim/scenes/experiment-1-welded.toml");
+    let own = include_str!("../../scenes/experiment-1-welded.toml");
     std::fs::write(folder.join("my-scene.toml"), own).expect("writable");
     let listed: Vec<(&str, &str)> = ELSEWHERE
         .lines()

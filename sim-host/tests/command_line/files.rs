@@ -160,7 +160,7 @@ fn a_run_goes_on_under_its_controller() {
 #[test]
 fn a_saved_run_is_known_by_its_motion() {
     let folder = folder("identity");
-    let text = include_str!("../../sim/scenes/box-drop.toml");
+    let text = include_str!("../../scenes/box-drop.toml");
     let write = |name: &str, from: &str, to: &str| {
         assert!(text.contains(from), "{from}");
         std::fs::write(folder.join(name), text.replacen(from, to, 1)).expect("writable");
@@ -251,7 +251,7 @@ fn an_interrupted_run_keeps_what_there_is() {
 #[test]
 fn what_is_off_at_the_start_is_told() {
     let folder = folder("warned");
-    let text = include_str!("../../sim/scenes/box-drop.toml");
+    let text = include_str!("../../scenes/box-drop.toml");
     let with = |changes: [(&str, &str); 2]| {
         changes.iter().fold(text.to_owned(), |text, (from, to)| {
             assert!(text.contains(from), "{from}");
@@ -281,7 +281,7 @@ fn what_is_off_at_the_start_is_told() {
     let inertia = "[1.1666666666666667, 0.7583333333333333, 1.4583333333333333]";
     let plate = warned(&with([upright, (inertia, "[0.100, 0.700, 0.801]")]));
     assert!(plate.len() == 1 && plate[0].contains("bodies[0].inertia_kg_m2"), "{plate:?}");
-    let robot = include_str!("../../sim/scenes/experiment-1.toml");
+    let robot = include_str!("../../scenes/experiment-1.toml");
     let sunk = robot.replacen("position_m = [0.0, 0.0, 1.035]", "position_m = [0.0, 0.0, 1.0]", 1);
     let sunk = warned(&sunk);
     assert!(sunk.len() == 1 && sunk[0].contains("the soles"), "{sunk:?}");

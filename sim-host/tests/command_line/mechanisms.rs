@@ -108,7 +108,7 @@ fn a_mechanism_that_fails_says_why() {
 #[test]
 fn a_run_says_where_its_method_and_step_come_from() {
     let folder = folder("recommended");
-    let whole = include_str!("../../sim/scenes/spherical-pendulum.toml");
+    let whole = include_str!("../../scenes/spherical-pendulum.toml");
     let (head, rest) = whole.split_once("[integrator]").expect("a method");
     let (_, mechanism) = rest.split_once("[mechanism]").expect("a mechanism");
     let open =
@@ -170,8 +170,8 @@ fn a_run_says_where_its_method_and_step_come_from() {
 fn a_wrong_mechanism_is_refused_with_its_place() {
     let folder = folder("mechanism-files");
     let scenes = [
-        include_str!("../../sim/scenes/rigid-body.toml"),
-        include_str!("../../sim/scenes/n-pendulum.toml"),
+        include_str!("../../scenes/rigid-body.toml"),
+        include_str!("../../scenes/n-pendulum.toml"),
     ];
     for (scene, line, by, words) in [
         (

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-const SCENE: &str = include_str!("../../sim/scenes/experiment-1-welded.toml");
+const SCENE: &str = include_str!("../../scenes/experiment-1-welded.toml");
 
 /// A folder of this test's own, for scenes and results.
 pub fn folder(test: &str) -> PathBuf {

@@ -203,7 +203,7 @@ fn it_stands_on_uneven_ground() {
         ("[terrain.under.\"left foot\"]\nheight_m = 0.01", 0.0),
         ("[terrain.under.\"right foot\"]\nslope_deg = 4.0\nuphill_deg = 45.0", 0.0),
     ] {
-        let text = include_str!("../../../sim-host/sim/scenes/stand.toml");
+        let text = include_str!("../../../sim-host/scenes/stand.toml");
         let scene = parse("stand", &format!("{text}\n[terrain]\n{terrain}\n"));
         let surefoot_sim::scene::AnyScene::Robot(scene) = scene.expect("a scene") else {
             unreachable!("a robot")

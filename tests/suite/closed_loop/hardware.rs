@@ -77,7 +77,7 @@ fn assert_same_motion(ours: &Run, other: &Run) {
 #[test]
 fn what_is_off_changes_nothing() {
     let (plain, _) = play(&scene(|_| {}));
-    let mut text = include_str!("../../../sim-host/sim/scenes/experiment-1.toml").to_owned();
+    let mut text = include_str!("../../../sim-host/scenes/experiment-1.toml").to_owned();
     text += "\n[sensing]\ncorrection_s = 0.3\nseed = 12\n[acting]\ndelay_s = 0.0\n";
     let AnyScene::Robot(said) = parse("experiment-1", &text).expect("a scene") else {
         unreachable!("a robot")
@@ -190,7 +190,7 @@ fn experiment_1_balances_with_good_hardware() {
 fn the_documented_tables_play() {
     let document = include_str!("../../../docs/robot-scenes.md");
     let tables = document.split("```").nth(1).and_then(|code| code.strip_prefix("toml"));
-    let scene = include_str!("../../../sim-host/sim/scenes/experiment-1.toml");
+    let scene = include_str!("../../../sim-host/scenes/experiment-1.toml");
     let text = [scene, tables.expect("an example")].concat();
     let AnyScene::Robot(scene) = parse("documented", &text).expect("a scene") else {
         unreachable!("a robot")
@@ -206,7 +206,7 @@ fn the_documented_tables_play() {
 #[test]
 fn the_other_documented_tables_play() {
     let document = include_str!("../../../docs/robot-scenes.md");
-    let stand = include_str!("../../../sim-host/sim/scenes/stand.toml");
+    let stand = include_str!("../../../sim-host/scenes/stand.toml");
     for (number, [distance, degrees]) in [(3, [0.05, 4.0]), (5, [0.05, 8.0])] {
         let tables = document.split("```").nth(number).and_then(|code| code.strip_prefix("toml"));
         let text = [stand, tables.expect("an example")].concat();

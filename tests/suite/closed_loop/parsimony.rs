@@ -123,7 +123,7 @@ fn stops() -> JointStops {
 /// plant itself.
 #[test]
 fn models_that_cannot_be_are_refused() {
-    let text = include_str!("../../../sim-host/sim/scenes/experiment-1.toml");
+    let text = include_str!("../../../sim-host/scenes/experiment-1.toml");
     for (from, to, words) in [
         ("duration_s = 3.0", "duration_s = 3.0\nmodel = \"tiny\"", ["unknown variant", "lumped"]),
         (

@@ -10,7 +10,7 @@ pub const STEPS: u64 = 60;
 /// All of them.
 pub fn scenes() -> Vec<Named> {
     let read = |name: &str| {
-        let path = format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         std::fs::read_to_string(path).expect("a built-in scene")
     };
     let built_in =
